@@ -1,0 +1,131 @@
+#pragma once
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The resolved scene: every quantity in SI, every default filled in, every choice made. Written by `resolve_scene`
+/// as RUN/scene.json and read by every executable.
+namespace polynya::scene {
+
+enum class Symmetry { full, half, quarter };  ///< half: y >= 0 is modelled; quarter: x >= 0 and y >= 0.
+
+/// A named physical effect, the user's wish and what was decided.
+struct Effect {
+  std::string requested;  ///< "auto", "on" or "off"
+  bool active = false;
+  std::string reason;     ///< why it is on or off, a whole sentence
+};
+
+/// A constitutive law or equation of state with its constants (SI) and where each came from.
+struct MaterialCard {
+  std::string name;                           ///< "ice.paper"
+  std::string law;                            ///< "elastic", "johnson_holmquist_2", "mie_grueneisen", "linear_polynomial", ...
+  std::map<std::string, double> values;       ///< "density", "shear_modulus", ... SI
+  std::map<std::string, std::string> origin;  ///< per value: "literature: ...", "calibrated: ...", "assumed: ..."
+};
+
+struct Run {
+  std::string end;            ///< "ice_passed", "exited" or "time"
+  double end_time = 0;        ///< s, latest end
+  double frame_interval = 0;  ///< s, between field frames
+  double step_factor = 0;     ///< fraction of the stable step that the solids use
+  double fluid_step_factor = 0;
+  double filter_frequency = 0;  ///< Hz, low-pass of the reported deceleration
+  double gravity = 0;           ///< m/s^2, along -z
+  long seed = 0;
+};
+
+struct Resolution {
+  double cell = 0;            ///< m, fluid cell in the fine region
+  double ice_element = 0;     ///< m
+  double vehicle_element = 0; ///< m, along the vehicle
+  double fine_radius = 0;     ///< m, half width of the fine region about the axis
+  double growth = 0;          ///< ratio of neighbouring cells outside
+};
+
+struct Vehicle {
+  std::string head;           ///< "ogive", "hemisphere", "ellipsoid"
+  double head_length = 0, diameter = 0, length = 0;  ///< m
+  std::string interior;       ///< "solid" or "hollow"
+  double wall_thickness = 0;  ///< m; 0: from mass (hollow)
+  double mass = 0;            ///< kg of the full vehicle; 0: from the material's density
+  std::string material;       ///< key into Scene::materials
+  double speed = 0;           ///< m/s, upward
+  double nose_position = 0;   ///< m, z of the nose at the start
+  bool deformable = true;
+};
+
+/// Prescribed bending of an ice beam between rollers (four-point: two supports below, two loads above).
+struct Bending {
+  double support_span = 0, load_span = 0;  ///< m
+  double speed = 0;                        ///< m/s of the loading rollers, downward
+  double ramp_time = 0;                    ///< s to reach it
+};
+
+struct Ice {
+  double length = 0, width = 0, thickness = 0;  ///< m, of the full plate (x, y, z)
+  double lower_face = 0;                        ///< m, z of the lower face
+  std::string material;
+  double critical_strain = 0;
+  std::string sides;      ///< "non_reflecting", "free" or "clamped"
+  std::string particles;  ///< "element_centre" (one particle per converted element)
+  std::optional<Bending> bending;
+};
+
+/// One side of a shock tube along x.
+struct TubeState {
+  std::string material;
+  double density = 0, velocity = 0, pressure = 0;
+};
+struct Tube {
+  double length = 0, diaphragm = 0;  ///< m
+  TubeState left, right;
+};
+
+struct Fluid {
+  double length = 0, width = 0;         ///< m, lateral extent of the full domain (x, y)
+  double bottom = 0, top = 0;           ///< m, z
+  double waterline = 0;                 ///< m, z of the undisturbed free surface
+  std::string water, air;               ///< keys into Scene::materials
+  double atmospheric_pressure = 0;      ///< Pa
+  double vapour_pressure = 0;           ///< Pa, absolute; lower bound of the pressure of water
+  std::string start;                    ///< "potential_flow" or "impulsive"
+  std::string outer_boundary;           ///< "non_reflecting" or "wall"
+  std::optional<Tube> tube;             ///< then the fluid is a one-dimensional tube and nothing else above holds
+};
+
+struct Contact {
+  double friction = 0;        ///< Coulomb coefficient
+  double stiffness_factor = 0;///< of the bound m / dt_window^2
+};
+
+struct ParticipantCommand {
+  std::string command;  ///< empty: the project's own executable
+  std::string launch;   ///< put in front of the command
+};
+
+struct Scene {
+  std::string title, name, level;
+  Symmetry symmetry = Symmetry::full;
+  Run run;
+  Resolution resolution;
+  std::optional<Vehicle> vehicle;
+  std::optional<Ice> ice;
+  std::optional<Fluid> fluid;
+  Contact contact;
+  std::map<std::string, MaterialCard> materials;
+  std::map<std::string, Effect> effects;  ///< names of DESIGN: "fluid", "conversion", "friction", ...
+  std::map<std::string, ParticipantCommand> participants;  ///< "structure", "ice", "fluid"
+
+  bool effect(const std::string& name) const;  ///< active? std::out_of_range if there is no such effect
+  const MaterialCard& material(const std::string& name) const;
+};
+
+/// Reads RUN/scene.json. Throws std::runtime_error naming the file and the key at fault.
+Scene load_resolved_scene(const std::string& path);
+Scene from_json(const nlohmann::json& resolved);
+nlohmann::json to_json(const Scene& scene);
+
+}  // namespace polynya::scene
