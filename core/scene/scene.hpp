@@ -21,9 +21,14 @@ struct Effect {
 /// A constitutive law or equation of state with its constants (SI) and where each came from.
 struct MaterialCard {
   std::string name;                           ///< "ice.paper"
-  std::string law;                            ///< "elastic", "johnson_holmquist_2", "mie_grueneisen", "linear_polynomial", ...
+  std::string law;  ///< "elastic", "johnson_holmquist_2", "mie_grueneisen", "linear_polynomial", "ideal_gas",
+                    ///< "stiffened_gas"; docs/scene.md lists the values of each
   std::map<std::string, double> values;       ///< "density", "shear_modulus", ... SI
   std::map<std::string, std::string> origin;  ///< per value: "literature: ...", "calibrated: ...", "assumed: ..."
+
+  /// A value by name. std::runtime_error naming card and value if it is absent (unlimited values are absent).
+  double value(const std::string& key) const;
+  bool has(const std::string& key) const { return values.contains(key); }
 };
 
 struct Run {
@@ -38,19 +43,22 @@ struct Run {
 };
 
 struct Resolution {
-  double cell = 0;            ///< m, fluid cell in the fine region
-  double ice_element = 0;     ///< m
-  double vehicle_element = 0; ///< m, along the vehicle
-  double fine_radius = 0;     ///< m, half width of the fine region about the axis
-  double growth = 0;          ///< ratio of neighbouring cells outside
+  double cell = 0;                 ///< m, fluid cell in the fine region
+  double ice_element = 0;          ///< m, ice element in the fine region
+  double vehicle_element = 0;      ///< m, along the vehicle
+  double fine_radius = 0;          ///< m, half width of the fluid's fine region about the axis
+  double ice_fine_radius = 0;      ///< m, half width of the ice's fine region about the axis
+  double growth = 0;               ///< ratio of neighbouring cells outside
+  double largest_ice_element = 0;  ///< m, limit of the growth in the ice
 };
 
 struct Vehicle {
   std::string head;           ///< "ogive", "hemisphere", "ellipsoid"
   double head_length = 0, diameter = 0, length = 0;  ///< m
   std::string interior;       ///< "solid" or "hollow"
-  double wall_thickness = 0;  ///< m; 0: from mass (hollow)
-  double mass = 0;            ///< kg of the full vehicle; 0: from the material's density
+  double wall_thickness = 0;  ///< m; 0: from mass (hollow). Never both 0 when hollow, never both given.
+  double mass = 0;            ///< kg of the full vehicle; 0: from the material's density (solid) or the wall (hollow).
+                              ///< A solid vehicle with a mass gets the density mass / volume.
   std::string material;       ///< key into Scene::materials
   double speed = 0;           ///< m/s, upward
   double nose_position = 0;   ///< m, z of the nose at the start
@@ -116,15 +124,16 @@ struct Scene {
   std::optional<Fluid> fluid;
   Contact contact;
   std::map<std::string, MaterialCard> materials;
-  std::map<std::string, Effect> effects;  ///< names of DESIGN: "fluid", "conversion", "friction", ...
-  std::map<std::string, ParticipantCommand> participants;  ///< "structure", "ice", "fluid"
+  std::map<std::string, Effect> effects;  ///< "fluid", "conversion", "friction", ...: all of docs/scene.md, always
+  std::map<std::string, ParticipantCommand> participants;  ///< those this scene needs of "structure", "ice", "fluid"
 
   bool effect(const std::string& name) const;  ///< active? std::out_of_range if there is no such effect
-  const MaterialCard& material(const std::string& name) const;
+  const MaterialCard& material(const std::string& name) const;  ///< std::out_of_range if there is no such card
 };
 
 /// Reads RUN/scene.json. Throws std::runtime_error naming the file and the key at fault.
 Scene load_resolved_scene(const std::string& path);
+/// std::runtime_error naming the key that is missing or of the wrong type.
 Scene from_json(const nlohmann::json& resolved);
 nlohmann::json to_json(const Scene& scene);
 
