@@ -1,0 +1,32 @@
+#include "core/results/frame_series.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "core/results/durable_file.hpp"
+#include "core/results/error.hpp"
+
+namespace polynya::results {
+
+FrameSeries::FrameSeries(std::string run_folder, std::string name)
+    : folder_(std::move(run_folder) + "/fields"), name_(std::move(name)) {}
+
+void FrameSeries::write(int number, const UnstructuredFields& fields, double time) {
+  if (number < 0) throw ResultsError("frames of " + name_ + " are numbered from 0, not " + std::to_string(number));
+  char digits[16];
+  std::snprintf(digits, sizeof digits, "_%04d", number);
+  const std::string file = name_ + digits + ".vtkhdf";
+  write_frame(folder_ + "/" + file, fields, time);
+  std::erase_if(entries_, [&](const Entry& entry) { return entry.file == file; });
+  entries_.push_back({file, time});
+  write_index();
+}
+
+void FrameSeries::write_index() const {
+  nlohmann::json frames = nlohmann::json::array();
+  for (const Entry& entry : entries_) frames.push_back({{"file", entry.file}, {"time", entry.time}});
+  replace_text(folder_ + "/" + name_ + ".json", nlohmann::json{{"frames", std::move(frames)}}.dump(1) + "\n");
+}
+
+}  // namespace polynya::results

@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/results/frame.hpp"
+
+namespace polynya::results {
+
+/// The field frames of one participant: RUN/fields/NAME_0000.vtkhdf, ... and their index RUN/fields/NAME.json,
+/// {"frames": [{"file": "NAME_0000.vtkhdf", "time": 0.0}, ...]}, rewritten by rename after each frame.
+class FrameSeries {
+ public:
+  FrameSeries(std::string run_folder, std::string name);
+
+  /// Writes frame `number` (>= 0) at `time` in s and adds it to the index; a number written again replaces its entry.
+  /// Throws ResultsError.
+  void write(int number, const UnstructuredFields& fields, double time);
+
+  std::size_t count() const { return entries_.size(); }
+
+ private:
+  struct Entry {
+    std::string file;
+    double time;
+  };
+  void write_index() const;
+
+  std::string folder_;
+  std::string name_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace polynya::results
