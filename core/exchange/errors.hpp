@@ -41,7 +41,8 @@ class CouplerLost : public std::runtime_error {
 /// A participant left before its end: killed, crashed, disconnected, or gave up with a reason of its own.
 class ParticipantLost : public std::runtime_error {
  public:
-  ParticipantLost(std::string who, const std::string& how) : std::runtime_error(who + ": " + how), name(std::move(who)) {}
+  ParticipantLost(std::string who, const std::string& how)
+      : std::runtime_error(who + ": " + how), name(std::move(who)) {}
   std::string name;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "core/exchange/errors.hpp"
 #include "core/exchange/message.hpp"

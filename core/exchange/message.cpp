@@ -1,0 +1,65 @@
+#include "core/exchange/message.hpp"
+
+#include <algorithm>
+
+#include "core/exchange/errors.hpp"
+#include "core/exchange/wire.hpp"
+
+namespace polynya::exchange {
+namespace {
+
+template <class T>
+constexpr const char* type_name() {
+  if constexpr (std::is_same_v<T, double>) return "f8";
+  if constexpr (std::is_same_v<T, std::int64_t>) return "i8";
+  if constexpr (std::is_same_v<T, std::int32_t>) return "i4";
+  if constexpr (std::is_same_v<T, std::uint8_t>) return "u1";
+}
+
+}  // namespace
+
+bool Message::has(std::string_view name) const {
+  return std::any_of(arrays.begin(), arrays.end(), [&](const Array& a) { return a.name == name; });
+}
+
+const Array& Message::array(std::string_view name) const {
+  const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const Array& a) { return a.name == name; });
+  if (found == arrays.end()) throw ProtocolError("message '" + kind() + "' has no array '" + std::string(name) + "'");
+  return *found;
+}
+
+template <class T>
+void Message::add(std::string name, std::vector<std::int64_t> shape, std::span<const T> data) {
+  Array array{std::move(name), type_name<T>(), std::move(shape), {}};
+  if (byte_count(array) != data.size_bytes())
+    throw ProtocolError("array '" + array.name + "' of message '" + kind() + "': shape " + shape_text(array) +
+                        " does not hold " + std::to_string(data.size()) + " values");
+  if (has(array.name)) throw ProtocolError("message '" + kind() + "' has two arrays '" + array.name + "'");
+  const auto bytes = std::as_bytes(data);
+  array.bytes.assign(bytes.begin(), bytes.end());
+  arrays.push_back(std::move(array));
+}
+
+template <class T>
+std::span<const T> Message::view(std::string_view name) const {
+  const Array& found = array(name);
+  if (found.type != type_name<T>())
+    throw ProtocolError("array '" + found.name + "' of message '" + kind() + "' is of type " + found.type + ", not " +
+                        type_name<T>());
+  if (found.bytes.size() != byte_count(found))
+    throw ProtocolError("array '" + found.name + "' of message '" + kind() + "' has " +
+                        std::to_string(found.bytes.size()) + " bytes, its shape " + shape_text(found) + " needs " +
+                        std::to_string(byte_count(found)));
+  return {reinterpret_cast<const T*>(found.bytes.data()), found.bytes.size() / sizeof(T)};
+}
+
+template void Message::add(std::string, std::vector<std::int64_t>, std::span<const double>);
+template void Message::add(std::string, std::vector<std::int64_t>, std::span<const std::int64_t>);
+template void Message::add(std::string, std::vector<std::int64_t>, std::span<const std::int32_t>);
+template void Message::add(std::string, std::vector<std::int64_t>, std::span<const std::uint8_t>);
+template std::span<const double> Message::view(std::string_view) const;
+template std::span<const std::int64_t> Message::view(std::string_view) const;
+template std::span<const std::int32_t> Message::view(std::string_view) const;
+template std::span<const std::uint8_t> Message::view(std::string_view) const;
+
+}  // namespace polynya::exchange

@@ -1,0 +1,105 @@
+#include "core/exchange/participant.hpp"
+
+#include <unistd.h>
+
+#include <chrono>
+
+#include "core/exchange/transport.hpp"
+
+namespace polynya::exchange {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+struct Participant::State {
+  Options options;
+  Transport transport;
+  Envelope envelope;
+  std::chrono::duration<double> waiting{0};
+
+  explicit State(Options given)
+      : options(std::move(given)),
+        transport(Transport::Side::participant, options.endpoint),
+        envelope{protocol_version, options.run} {}
+
+  /// The next message, or nothing when the time is over.
+  std::optional<Message> next(Clock::time_point until) {
+    while (true) {
+      const bool closed = !transport.closed_connections().empty();
+      // What arrived before the connection closed still counts: a `stop`, a `refuse`, a `bye`.
+      if (std::optional<Delivery> delivery = transport.take()) return accept(std::move(*delivery));
+      if (closed) {
+        transport.abandon_queued();
+        throw CouplerLost("the coupler at " + options.endpoint + " closed the connection: it ended or was killed");
+      }
+      const auto left = std::chrono::ceil<milliseconds>(until - Clock::now());
+      if (left <= milliseconds(0)) return std::nullopt;
+      transport.wait(std::min(left, milliseconds(3'600'000)));
+    }
+  }
+
+  Message accept(Delivery&& delivery) const {
+    if (!delivery.fault.empty()) throw ProtocolError("from the coupler: " + delivery.fault);
+    Message& message = delivery.message;
+    // A refusal may come from a coupler of another run or version, so it is read before these are compared.
+    if (message.kind() == "refuse") throw Refused(message.header.value("reason", "no reason given"));
+    if (delivery.envelope.protocol != envelope.protocol || delivery.envelope.run != envelope.run)
+      throw ProtocolError("message '" + message.kind() + "' from the coupler belongs to protocol " +
+                          std::to_string(delivery.envelope.protocol) + ", run '" + delivery.envelope.run +
+                          "'; this is protocol " + std::to_string(envelope.protocol) + ", run '" + envelope.run + "'");
+    if (message.kind() == "stop") throw Stopped(message.header.value("reason", "no reason given"));
+    return std::move(message);
+  }
+};
+
+Participant::Participant(Options options) : state_(std::make_unique<State>(std::move(options))) {
+  const Options& own = state_->options;
+  Message hello("hello");
+  hello.header["name"] = own.name;
+  hello.header["pid"] = getpid();
+  send(std::move(hello));
+  const auto patience = std::chrono::duration<double>(own.timeout_seconds);
+  const std::optional<Message> answer = state_->next(Clock::now() + std::chrono::ceil<milliseconds>(patience));
+  if (!answer) {
+    state_->transport.abandon_queued();
+    throw CouplerLost("no coupler answered at " + own.endpoint + " within " +
+                      nlohmann::json(own.timeout_seconds).dump() + " s");
+  }
+  expect_kind(*answer, "welcome");
+}
+
+Participant::~Participant() = default;
+
+void Participant::send(const Message& message) {
+  send(Message(message));
+}
+
+void Participant::send(Message&& message) {
+  state_->transport.send({}, std::move(message), state_->envelope);
+}
+
+Message Participant::receive() {
+  const auto start = Clock::now();
+  std::optional<Message> message;
+  while (!message) message = state_->next(Clock::now() + std::chrono::hours(1));
+  state_->waiting += Clock::now() - start;
+  return std::move(*message);
+}
+
+Message Participant::receive(std::string_view kind) {
+  Message message = receive();
+  expect_kind(message, kind);
+  return message;
+}
+
+void Participant::fail(const std::string& reason) {
+  Message message("failed");
+  message.header["reason"] = reason;
+  send(std::move(message));
+}
+
+double Participant::waiting_seconds() const {
+  return state_->waiting.count();
+}
+
+}  // namespace polynya::exchange

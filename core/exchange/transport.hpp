@@ -1,0 +1,58 @@
+#pragma once
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/exchange/message.hpp"
+#include "core/exchange/wire.hpp"
+
+namespace polynya::exchange {
+
+/// What one multipart message became. Either message is meaningful or fault says what is wrong with it.
+struct Delivery {
+  std::string route;    ///< address of the sender for Transport::send; empty on the participant's side
+  int connection = -1;  ///< number of the connection it came over, as in Transport::closed_connections()
+  Message message;
+  Envelope envelope;
+  std::string fault;
+};
+
+/// One ZeroMQ socket with its monitor. The only place of the project that knows ZeroMQ. Nothing in here spins: wait()
+/// sleeps in the kernel.
+class Transport {
+ public:
+  enum class Side { coupler, participant };  ///< ROUTER that binds, DEALER that connects
+
+  /// Throws EndpointError.
+  Transport(Side side, const std::string& endpoint);
+  ~Transport();
+  Transport(const Transport&) = delete;
+  Transport& operator=(const Transport&) = delete;
+
+  /// Sleeps until something came, a connection closed, or the time is over. True unless the time is over.
+  bool wait(std::chrono::milliseconds longest);
+
+  /// The next delivery if one is here.
+  std::optional<Delivery> take();
+
+  /// Connections closed by the other side since the last call, oldest first.
+  std::vector<int> closed_connections();
+  bool is_open(int connection);
+
+  /// Queues a message; arrays are moved out of it. False when nobody is at this route any more.
+  bool send(const std::string& route, Message&& message, const Envelope& envelope);
+
+  /// Forgets what is still queued when destroyed, instead of waiting up to two seconds for it to leave.
+  void abandon_queued();
+
+  /// The bound or connected address.
+  std::string endpoint() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace polynya::exchange
