@@ -1,0 +1,198 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/continuum/elementary.hpp"
+#include "core/continuum/material_point.hpp"
+#include "core/continuum/number.hpp"
+
+/// Johnson & Holmquist 1994, "An improved computational constitutive model for brittle materials" (JH-2).
+/// Starred quantities: stress by the equivalent stress at the Hugoniot elastic limit, pressure by the pressure there,
+/// strain rate by the reference rate. mu = rho/rho0 - 1.
+namespace polynya::continuum {
+
+struct JohnsonHolmquist2 {
+  double density = 0;                               ///< kg/m^3, reference
+  double shear_modulus = 0;                         ///< G, Pa
+  double bulk_modulus = 0;                          ///< K1, Pa
+  double bulk_modulus_2 = 0;                        ///< K2, Pa
+  double bulk_modulus_3 = 0;                        ///< K3, Pa
+  double stress_at_hugoniot_elastic_limit = 0;      ///< sigma_HEL = 1.5 (HEL - P_HEL), Pa
+  double pressure_at_hugoniot_elastic_limit = 0;    ///< P_HEL, Pa
+  double intact_strength_constant = 0;              ///< A
+  double intact_strength_exponent = 0;              ///< N
+  double strain_rate_constant = 0;                  ///< C
+  double fractured_strength_constant = 0;           ///< B
+  double fractured_strength_exponent = 0;           ///< M
+  double maximum_tensile_pressure = 0;              ///< T, Pa
+  double damage_constant = 0;                       ///< D1
+  double damage_exponent = 0;                       ///< D2
+  double bulking_fraction = 0;                      ///< beta
+  double reference_strain_rate = 1;                 ///< 1/s
+  double maximum_fractured_strength = 1e300;        ///< sigma_f,max as a fraction of sigma_HEL
+};
+
+/// From the values named like the members, with hugoniot_elastic_limit (HEL, Pa) in place of the stress there.
+/// bulk_modulus_2, bulk_modulus_3, bulking_fraction (0), reference_strain_rate (1/s) and maximum_fractured_strength (none)
+/// may be left out. Throws std::invalid_argument naming the card and the key that is missing or unphysical.
+JohnsonHolmquist2 johnson_holmquist_2_from_card(const std::string& card, const std::map<std::string, double>& values);
+
+/// Strengths of intact and fractured material and the strain at which it fractures, all at one pressure and rate.
+template <class T>
+struct JohnsonHolmquist2Strength {
+  T intact, fractured;  ///< Pa, von Mises measure
+  T fracture_strain;    ///< plastic strain that takes the damage from 0 to 1
+};
+
+/// 1 + C ln(rate / reference), 1 at and below the reference rate.
+template <class T>
+T rate_factor(const JohnsonHolmquist2& law, const T& rate) {
+  if (law.strain_rate_constant == 0) return T(1.0);
+  const T relative = maximum(T(rate / law.reference_strain_rate), T(1.0));
+  return 1.0 + law.strain_rate_constant * 0.69314718055994531 * log2_of(relative);
+}
+
+/// sigma_i = A (P* + T*)^N rate factor, sigma_f = B (P*)^M rate factor <= sigma_f,max, fracture strain D1 (P* + T*)^D2.
+/// pressure in Pa, positive in compression; rate: equivalent strain rate, 1/s. The strength at damage D is
+/// sigma_i - D (sigma_i - sigma_f).
+template <class T>
+JohnsonHolmquist2Strength<T> strength(const JohnsonHolmquist2& law, const T& pressure, const T& rate, bool fractured,
+                                      bool fracture_strain) {
+  const T tiny = T(1e-290);
+  const T zero = T(0.0);
+  const T tension = (pressure + law.maximum_tensile_pressure) / law.pressure_at_hugoniot_elastic_limit;
+  const T compression = pressure / law.pressure_at_hugoniot_elastic_limit;
+  const T log_tension = log2_of(maximum(tension, tiny));
+  const T scale = law.stress_at_hugoniot_elastic_limit * rate_factor(law, rate);
+
+  JohnsonHolmquist2Strength<T> result{zero, zero, zero};
+  result.intact = select(tension > zero,
+                         T(scale * law.intact_strength_constant * exp2_of(T(law.intact_strength_exponent * log_tension))),
+                         zero);
+  if (fractured && law.fractured_strength_constant > 0) {
+    const T power = exp2_of(T(law.fractured_strength_exponent * log2_of(maximum(compression, tiny))));
+    const T bounded = minimum(T(scale * law.fractured_strength_constant * power),
+                              T(law.stress_at_hugoniot_elastic_limit * law.maximum_fractured_strength));
+    result.fractured = select(compression > zero, bounded, zero);
+  }
+  if (fracture_strain)
+    result.fracture_strain = select(
+        tension > zero, T(law.damage_constant * exp2_of(T(law.damage_exponent * log_tension))), zero);
+  return result;
+}
+
+/// P = K1 mu + dP, in compression also K2 mu^2 + K3 mu^3, Pa. The cut-off at -T (1 - D) is applied by advance_stress.
+template <class T>
+T pressure(const JohnsonHolmquist2& law, const T& mu, const T& bulking_pressure) {
+  const T compression = maximum(mu, T(0.0));
+  return law.bulk_modulus * mu + compression * compression * (law.bulk_modulus_2 + law.bulk_modulus_3 * compression) +
+         bulking_pressure;
+}
+
+/// Tangent bulk modulus (1 + mu) dP/dmu, Pa.
+template <class T>
+T tangent_bulk_modulus(const JohnsonHolmquist2& law, const PointState<T>& state) {
+  const T density_ratio = 1.0 / state.relative_volume;
+  const T compression = maximum(T(density_ratio - 1.0), T(0.0));
+  return density_ratio * (law.bulk_modulus + compression * (2.0 * law.bulk_modulus_2 +
+                                                            3.0 * law.bulk_modulus_3 * compression));
+}
+
+/// Von Mises stress of a deviator, Pa.
+template <class T>
+T equivalent_stress(const SymmetricTensor<T>& s) {
+  return square_root(T(1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) +
+                       3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])));
+}
+
+/// Strength of the point at its present pressure and damage and at the reference rate, Pa.
+template <class T>
+T flow_stress(const JohnsonHolmquist2& law, const PointState<T>& state) {
+  const T p = (-1.0 / 3.0) * (state.stress[0] + state.stress[1] + state.stress[2]);
+  const bool damaged = any(state.damage > T(0.0));
+  const auto y = strength(law, p, T(law.reference_strain_rate), damaged, false);
+  return y.intact - state.damage * (y.intact - y.fractured);
+}
+
+/// Return to the yield surface at one pressure and rate. excess: trial equivalent stress above the strength, Pa.
+/// The plastic strain satisfies  trial - 3 G dep = strength(D + dep/eps_f): linear in dep, so solved exactly. Where the
+/// strength falls faster than the elastic stress, no such state exists and the point fractures within the step.
+template <class T>
+void advance_damage(const JohnsonHolmquist2& law, const JohnsonHolmquist2Strength<T>& y, const T& trial, const T& excess,
+                    T& damage, T& plastic_strain) {
+  const T zero = T(0.0), one = T(1.0);
+  const auto yields = excess > zero;
+  const T softening = y.intact - y.fractured;
+  const T slope = 3.0 * law.shear_modulus * y.fracture_strain - softening;  // times eps_f
+  const T step_damage = select(slope > zero, T(excess / maximum(slope, T(1e-290))), one);
+  const T damaged = minimum(T(damage + step_damage), one);
+  // Fracture strain 0: any yielding fractures. D1 = 0 likewise.
+  const T fractured = select(y.fracture_strain > zero, damaged, one);
+  const T after = y.intact - fractured * softening;
+  const T increment = (trial - minimum(after, trial)) / (3.0 * law.shear_modulus);
+  damage = select(yields, fractured, damage);
+  plastic_strain += select(yields, increment, zero);
+}
+
+/// Bulking: a share beta of the deviatoric elastic energy that the loss of strength sets free becomes pressure.
+template <class T>
+T bulked_pressure(const JohnsonHolmquist2& law, const T& mu, const T& bulking_pressure, const T& before, const T& after) {
+  const T released = maximum(T((before * before - after * after) / (6.0 * law.shear_modulus)), T(0.0));
+  const T linear = law.bulk_modulus * mu;
+  const T total = linear + bulking_pressure;
+  return square_root(T(total * total + 2.0 * law.bulking_fraction * law.bulk_modulus * released)) - linear;
+}
+
+/// One step of the law. On entry the stress is the old one, already rotated, and state.relative_volume the new one.
+/// strain: D dt of the step; dt 0 leaves deviator and damage alone.
+template <class T>
+void advance_stress(const JohnsonHolmquist2& law, PointState<T>& state, const SymmetricTensor<T>& strain, T dt) {
+  const T zero = T(0.0), one = T(1.0);
+  const T mean_strain = (strain[0] + strain[1] + strain[2]) * (1.0 / 3.0);
+  const T mean_stress = (state.stress[0] + state.stress[1] + state.stress[2]) * (1.0 / 3.0);
+  SymmetricTensor<T> deviator = state.stress, stretching = strain;
+  for (int c = 0; c < 3; ++c) {
+    deviator[c] -= mean_stress;
+    stretching[c] -= mean_strain;
+  }
+  for (int c = 0; c < 6; ++c) deviator[c] += 2.0 * law.shear_modulus * stretching[c];
+
+  const T mu = one / state.relative_volume - one;
+  const T cut_off = -law.maximum_tensile_pressure * (one - state.damage);
+  T p = maximum(pressure(law, mu, state.bulking_pressure), cut_off);
+
+  // equivalent_stress of a strain is 3/2 of the equivalent strain sqrt(2/3 e:e).
+  const T rate = equivalent_stress(stretching) * (2.0 / 3.0) / maximum(dt, T(1e-290));
+  const T trial = equivalent_stress(deviator);
+  const bool damaged = any(state.damage > zero);
+  auto y = strength(law, p, rate, damaged, false);
+  T flow = y.intact - state.damage * (y.intact - y.fractured);
+  const T excess = trial - flow;
+  if (any(excess > zero)) {
+    y = strength(law, p, rate, true, true);
+    const T before = flow;
+    const T old_damage = state.damage;
+    advance_damage(law, y, trial, excess, state.damage, state.plastic_strain);
+    flow = y.intact - state.damage * (y.intact - y.fractured);
+    const T scale = select(excess > zero, T(minimum(flow, trial) / maximum(trial, T(1e-290))), one);
+    for (int c = 0; c < 6; ++c) deviator[c] *= scale;
+    if (law.bulking_fraction > 0) {
+      const auto bulks = (excess > zero) && (mu > zero) && (state.damage > old_damage);
+      const T bulked = bulked_pressure(law, mu, state.bulking_pressure, before, flow);
+      const T increase = select(bulks, T(bulked - state.bulking_pressure), zero);
+      state.bulking_pressure += increase;
+      p += increase;
+    }
+    p = maximum(p, T(-law.maximum_tensile_pressure * (one - state.damage)));
+  }
+  state.stress = deviator;
+  for (int c = 0; c < 3; ++c) state.stress[c] -= p;
+}
+
+/// Equivalent stress at yield of intact material under uniaxial stress at a strain rate (1/s), Pa: the root of
+/// q = strength(p), p = q/3 in compression and -q/3 in tension. Infinite where the surface is steeper than the path.
+double unconfined_compressive_strength(const JohnsonHolmquist2& law, double rate);
+double uniaxial_tensile_strength(const JohnsonHolmquist2& law, double rate);
+
+}  // namespace polynya::continuum

@@ -1,0 +1,24 @@
+#pragma once
+#include <array>
+
+namespace polynya::continuum {
+
+/// Symmetric tensors: xx, yy, zz, xy, yz, zx (tensor components, not engineering shear). Stress: Pa, positive in tension.
+template <class T>
+using SymmetricTensor = std::array<T, 6>;
+
+/// General tensors, row by row: index 3 i + j. A velocity gradient is L_ij = d v_i / d x_j, 1/s.
+template <class T>
+using Tensor = std::array<T, 9>;
+
+/// What a constitutive law remembers of one material point. T: double, or a pack of doubles.
+template <class T>
+struct PointState {
+  SymmetricTensor<T> stress{};  ///< Pa, Cauchy
+  T relative_volume{1.0};       ///< V / V0 = rho0 / rho
+  T damage{0.0};                ///< 0..1
+  T plastic_strain{0.0};        ///< accumulated equivalent plastic strain
+  T bulking_pressure{0.0};      ///< Pa
+};
+
+}  // namespace polynya::continuum
