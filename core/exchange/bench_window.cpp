@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -30,8 +29,9 @@ struct SocketFolder {
   std::string endpoint() const { return "ipc://" + path + "/socket"; }
 };
 
-double sum(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
+void unpack(const Message& message, std::string_view name, std::vector<double>& into) {
+  const std::span<const double> values = message.view<double>(name);
+  std::copy(values.begin(), values.end(), into.begin());
 }
 
 /// Answers every `surface` by `loads` until the last window.
@@ -40,8 +40,7 @@ void answer(Hub& hub, std::size_t vertices) {
   const auto count = static_cast<std::int64_t>(vertices);
   hub.await_participants(10);
   for (int window = 0; window < warm_up + windows; ++window) {
-    const Message surface = hub.receive("solid", "surface");
-    forces[0] = sum(surface.view<double>("positions"));
+    unpack(hub.receive("solid", "surface"), "positions", forces);
     Message loads("loads");
     loads.header["window"] = window;
     loads.header["next_step"] = 1e-7;
@@ -67,8 +66,7 @@ double window_microseconds(std::size_t vertices) {
     surface.header["stable_step"] = 1e-7;
     surface.add<double>("positions", {static_cast<std::int64_t>(vertices), 3}, positions);
     participant.send(std::move(surface));
-    const Message loads = participant.receive("loads");
-    positions[0] = sum(loads.view<double>("load.forces"));
+    unpack(participant.receive("loads"), "load.forces", positions);
     const std::chrono::duration<double, std::micro> passed = std::chrono::steady_clock::now() - start;
     if (window >= warm_up) microseconds.push_back(passed.count());
   }

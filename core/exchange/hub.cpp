@@ -4,6 +4,7 @@
 #include <chrono>
 #include <deque>
 #include <map>
+#include <utility>
 
 #include "core/exchange/environment.hpp"
 #include "core/exchange/transport.hpp"
@@ -42,6 +43,7 @@ struct Hub::State {
   Envelope envelope;
   std::map<std::string, Member> members;
   std::map<std::string, std::string> name_of_route;
+  std::vector<std::string> leaving;
   std::string last_refusal;
   bool local;
 
@@ -58,14 +60,20 @@ struct Hub::State {
     return found->second;
   }
 
-  /// One round: sleeps at most this long, then takes in everything that came.
+  /// Takes in one message, or sleeps at most this long for one. Only when nothing is left to read does a closed
+  /// connection count: what the participant said before, its own reason for leaving above all, comes first.
   void attend(milliseconds longest) {
-    const bool quiet = !transport.wait(std::min(longest, second_look));
-    const std::vector<std::string> gone = members_behind(transport.closed_connections());
-    // What a participant said before its connection closed still counts, its own reason for leaving above all.
-    while (std::optional<Delivery> delivery = transport.take()) accept(std::move(*delivery));
-    lose(gone);
-    if (quiet) lose(members_without_process());
+    if (std::optional<Delivery> delivery = transport.next(std::min(longest, second_look)))
+      return accept(std::move(*delivery));
+    note_closed_connections();
+    lose(std::exchange(leaving, {}));
+    lose(members_without_process());
+  }
+
+  void note_closed_connections() {
+    for (const int connection : transport.closed_connections())
+      for (const auto& [name, member] : members)
+        if (member.presence == Presence::here && member.connection == connection) leaving.push_back(name);
   }
 
   void lose(const std::vector<std::string>& gone) {
@@ -73,15 +81,6 @@ struct Hub::State {
     if (!gone.empty())
       throw ParticipantLost(gone.front(),
                             "closed its connection before the end of the run; it ended, crashed or was killed");
-  }
-
-  std::vector<std::string> members_behind(const std::vector<int>& connections) const {
-    std::vector<std::string> found;
-    for (const auto& [name, member] : members)
-      if (member.presence == Presence::here &&
-          std::find(connections.begin(), connections.end(), member.connection) != connections.end())
-        found.push_back(name);
-    return found;
   }
 
   std::vector<std::string> members_without_process() const {
@@ -109,6 +108,7 @@ struct Hub::State {
     const std::string reason = objection(delivery);
     if (!reason.empty()) return refuse(delivery.route, reason);
     if (!transport.is_open(delivery.connection)) return;
+    note_closed_connections();  // now, because the number of a closed connection may belong to the newcomer
     if (!transport.send(delivery.route, Message("welcome"), envelope)) return;
     const std::string name = delivery.message.header["name"];
     Member& member = members[name];
@@ -193,8 +193,9 @@ void Hub::send(const std::string& name, Message&& message) {
   const bool last = message.kind() == "bye";
   if (member.presence != Presence::here) throw ParticipantLost(name, "is not part of the run at this time");
   if (!state_->transport.send(member.route, std::move(message), state_->envelope)) {
-    state_->attend(milliseconds(0));  // throws with the participant's own reason when it gave one
-    state_->lose({name});
+    while (member.presence == Presence::here)
+      state_->attend(second_look);  // throws, with its own reason if it gave one
+    throw ParticipantLost(name, "cannot be reached any more");
   }
   if (last) member.presence = Presence::departed;
 }

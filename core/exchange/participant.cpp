@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/exchange/transport.hpp"
@@ -25,16 +26,14 @@ struct Participant::State {
   /// The next message, or nothing when the time is over.
   std::optional<Message> next(Clock::time_point until) {
     while (true) {
-      const bool closed = !transport.closed_connections().empty();
-      // What arrived before the connection closed still counts: a `stop`, a `refuse`, a `bye`.
-      if (std::optional<Delivery> delivery = transport.take()) return accept(std::move(*delivery));
-      if (closed) {
+      const auto left = std::max(std::chrono::ceil<milliseconds>(until - Clock::now()), milliseconds(0));
+      if (std::optional<Delivery> delivery = transport.next(std::min(left, milliseconds(3'600'000))))
+        return accept(std::move(*delivery));
+      if (!transport.closed_connections().empty()) {
         transport.abandon_queued();
         throw CouplerLost("the coupler at " + options.endpoint + " closed the connection: it ended or was killed");
       }
-      const auto left = std::chrono::ceil<milliseconds>(until - Clock::now());
-      if (left <= milliseconds(0)) return std::nullopt;
-      transport.wait(std::min(left, milliseconds(3'600'000)));
+      if (left == milliseconds(0)) return std::nullopt;
     }
   }
 

@@ -19,7 +19,7 @@ struct Delivery {
   std::string fault;
 };
 
-/// One ZeroMQ socket with its monitor. The only place of the project that knows ZeroMQ. Nothing in here spins: wait()
+/// One ZeroMQ socket with its monitor. The only place of the project that knows ZeroMQ. Nothing in here spins: next()
 /// sleeps in the kernel.
 class Transport {
  public:
@@ -31,13 +31,11 @@ class Transport {
   Transport(const Transport&) = delete;
   Transport& operator=(const Transport&) = delete;
 
-  /// Sleeps until something came, a connection closed, or the time is over. True unless the time is over.
-  bool wait(std::chrono::milliseconds longest);
+  /// The next delivery. Sleeps at most this long for one; returns nothing when the time is over, a connection closed or
+  /// a signal came. So whoever finds nothing and then a closed connection has read all that came over it before.
+  std::optional<Delivery> next(std::chrono::milliseconds longest);
 
-  /// The next delivery if one is here.
-  std::optional<Delivery> take();
-
-  /// Connections closed by the other side since the last call, oldest first.
+  /// Connections that the other side closed since the last call, oldest first.
   std::vector<int> closed_connections();
   bool is_open(int connection);
 
