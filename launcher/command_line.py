@@ -1,0 +1,89 @@
+"""The command line. Standard library only: it is read before any package is installed."""
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from typing import NoReturn
+
+from launcher import ROOT, WRONG_INPUT
+
+NEED_PACKAGES = {"build", "run", "explain", "test", "bench", "draw"}
+
+
+class Parser(argparse.ArgumentParser):
+    """Wrong input is one line on stderr and exit code 2."""
+
+    def error(self, message: str) -> NoReturn:
+        print(f"polynya: {message} (see `{self.prog} --help`)", file=sys.stderr)
+        sys.exit(WRONG_INPUT)
+
+
+def positive(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise ValueError
+    return number
+
+
+positive.__name__ = "positive number"
+
+
+def assignment(text: str) -> str:
+    key, equals, _ = text.partition("=")
+    if not equals or not key.strip():
+        raise argparse.ArgumentTypeError(f"'{text}' is not key=value, for example vehicle.speed=60")
+    return text
+
+
+def presets() -> list[str]:
+    described = json.loads((ROOT / "CMakePresets.json").read_text())
+    return [entry["name"] for entry in described["configurePresets"] if not entry.get("hidden")]
+
+
+def add_scene(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("scene", metavar="SCENE", help="a scene file, or a folder of cases/ or examples/")
+    parser.add_argument("--level", metavar="L", help="one of the scene's levels of resolution, e.g. quick")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=assignment, dest="settings",
+                        help="change one value of the scene, e.g. vehicle.speed=60 or ice.thickness='20 mm'")
+    parser.add_argument("--json", action="store_true", help="one line of JSON on standard output")
+
+
+def build_parser() -> argparse.ArgumentParser:
+    parser = Parser(prog="./polynya", description="Water exit of a vehicle through floating ice.",
+                    epilog="Exit codes: 0 done, 1 failed, 2 wrong input.")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+
+    run = commands.add_parser("run", help="build what is missing, run a scene, draw it")
+    add_scene(run)
+    run.add_argument("--out", metavar="DIR", help="run folder (default runs/NAME-LEVEL-DATE-TIME)")
+    run.add_argument("--threads", metavar="N", type=positive, help="threads to use (default: all cores)")
+    run.add_argument("--no-pictures", action="store_false", dest="pictures", help="do not draw at the end")
+
+    add_scene(commands.add_parser("explain", help="what a run would do and cost, without running it"))
+
+    build = commands.add_parser("build", help="build every program")
+    build.add_argument("--preset", default="release", choices=presets(), help="default: release")
+
+    test = commands.add_parser("test", help="build everything and run the tests")
+    test.add_argument("--long", action="store_true", help="the long tests as well")
+    test.add_argument("-R", metavar="REGEX", dest="regex", help="only tests whose name matches")
+
+    bench = commands.add_parser("bench", help="measure the speed of the kernels")
+    bench.add_argument("name", metavar="NAME", nargs="?", help="one bench (default: all)")
+    bench.add_argument("--json", action="store_true", help="one line of JSON on standard output")
+
+    draw = commands.add_parser("draw", help="draw the pictures of a run again")
+    draw.add_argument("run", metavar="RUN", help="a run folder")
+
+    commands.add_parser("list", help="scenes and runs at hand")
+    return parser
+
+
+def parse(words: list[str]) -> argparse.Namespace:
+    """The parsed command line; leaves with exit code 2 if it makes no sense, 0 after --help."""
+    parser = build_parser()
+    if not words:
+        parser.print_help()
+        sys.exit(WRONG_INPUT)
+    return parser.parse_args(words)

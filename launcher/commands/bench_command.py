@@ -1,0 +1,20 @@
+"""`polynya bench`: the speed of the kernels on this machine."""
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+
+from launcher import DONE, FAILED, WRONG_INPUT, build
+
+PROGRAM = "polynya_bench"
+
+
+def run(arguments: argparse.Namespace) -> int:
+    build.build([PROGRAM])
+    command = [str(build.program_folder() / PROGRAM)]
+    command += [arguments.name] if arguments.name else []
+    command += ["--json"] if arguments.json else []
+    environment = {**os.environ, "OMP_WAIT_POLICY": "passive"}
+    code = subprocess.run(command, env=environment, check=False).returncode
+    return code if code in (DONE, WRONG_INPUT) else FAILED

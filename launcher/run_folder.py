@@ -1,0 +1,88 @@
+"""The folder of a run: where it lies, what may be overwritten, who is using it."""
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+import shutil
+import time
+from pathlib import Path
+from typing import IO
+
+from launcher import ROOT, WrongInput
+
+# What a run consists of. Nothing else in the folder is ever touched.
+PARTS = ("series", "fields", "logs", "pictures", "summary.json", "scene.json")
+SUMMARIES = "*_summary.json"
+LOCK = ".lock"
+
+
+def choose(out: str | None, scene: dict) -> Path:
+    """The folder named by --out, or a fresh one under runs/."""
+    if out:
+        return Path(out).resolve()
+    words = [scene.get("name") or "scene", scene.get("level") or "", time.strftime("%Y%m%d-%H%M%S")]
+    base = ROOT / "runs" / "-".join(word for word in words if word)
+    number, folder = 1, base
+    while folder.exists():
+        number += 1
+        folder = base.with_name(f"{base.name}-{number}")
+    return folder
+
+
+def is_run(folder: Path) -> bool:
+    return (folder / "scene.json").is_file() and (folder / "logs").is_dir()
+
+
+def check(folder: Path) -> None:
+    """Raises WrongInput unless the folder is new, empty or an earlier run."""
+    if folder.exists() and not folder.is_dir():
+        raise WrongInput(f"--out {folder}: is a file; a folder is needed")
+    if folder.is_dir() and any(entry.name != LOCK for entry in folder.iterdir()) and not is_run(folder):
+        raise WrongInput(f"--out {folder}: holds something that is not a run; name a new, an empty or a run's folder")
+
+
+def prepare(folder: Path, scene: dict) -> IO[str]:
+    """Empties an earlier run, makes the sub-folders and writes scene.json. Returns the lock to hold during the run."""
+    check(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        lock = open(folder / LOCK, "w", encoding="utf-8")
+    except OSError as error:
+        raise WrongInput(f"--out {folder}: {error.strerror}") from None
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        lock.close()
+        raise WrongInput(f"--out {folder}: another run is using this folder") from None
+    for part in PARTS:
+        remove(folder / part)
+    for summary in folder.glob(SUMMARIES):
+        remove(summary)
+    for part in ("logs", "series", "fields"):
+        (folder / part).mkdir()
+    write_json(folder / "scene.json", scene)
+    return lock
+
+
+def remove(path: Path) -> None:
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
+    else:
+        path.unlink(missing_ok=True)
+
+
+def write_json(path: Path, content: dict) -> None:
+    """Written aside and renamed: a reader never sees half of it."""
+    aside = path.with_name(path.name + ".tmp")
+    aside.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    os.replace(aside, path)
+
+
+def read_json(path: Path) -> dict:
+    """The object in a JSON file; empty if it is missing or damaged, as after a crash."""
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return content if isinstance(content, dict) else {}

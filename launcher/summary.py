@@ -1,0 +1,131 @@
+"""RUN/summary.json: what the run found and what it cost, from the coupler's summary, the series and the processes."""
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy
+
+from launcher import definitions
+from launcher.run_folder import read_json, write_json
+from launcher.series import Series, read_series
+from launcher.supervise import Outcome
+
+# Quantities that the processes find themselves: key of the summary, column that has it if the summary is missing
+# (a run that failed), and which value of the column it is.
+MEASURED = {
+    "peak_head_stress": ("head_stress", "largest"),
+    "broken_ice_mass": ("broken_ice_mass", "last"),
+    "energy_error": ("energy_error", "last"),
+    "momentum_error": ("momentum_error", "last"),
+    "mass_error": ("mass_error", "last"),
+    "leak_fraction": ("leak_fraction", "last"),
+    "converted_elements": ("converted_elements", "last"),
+    "particles": ("particles", "last"),
+    "cells": (None, None),
+    "elements": (None, None),
+    "steps": ("window", "last"),
+}
+NEED_ICE = ("broken_ice_mass", "converted_elements", "particles")
+PASSAGE = tuple(definitions.Passage.__dataclass_fields__)
+
+
+def series_path(folder: Path, names: list[str]) -> Path:
+    """The series that tells the progress: the coupler's, or that of the only solver."""
+    return folder / "series" / ("coupler.csv" if len(names) > 1 else f"{names[0]}.csv")
+
+
+def passage_of(scene: dict, series: Series | None) -> definitions.Passage | None:
+    """The quantities of the passage; None without a vehicle or without its speed in the series."""
+    vehicle, ice = scene.get("vehicle"), scene.get("ice")
+    if not vehicle or series is None or not series.has("time", "vehicle_speed"):
+        return None
+    time, speed = series["time"], series["vehicle_speed"]
+    good = usable(time, speed)
+    time, speed = time[good], speed[good]
+    if not len(time):
+        return None
+    shoulder = upper_face = None
+    if ice and series.has("vehicle_position"):
+        nose = definitions.nose_position(time, series["vehicle_position"][good], speed, vehicle["nose_position"])
+        shoulder, upper_face = nose - vehicle["head_length"], ice["lower_face"] + ice["thickness"]
+    force = series["contact_force"][good] if ice and series.has("contact_force") else None
+    return definitions.passage(time, speed, scene["run"]["filter_frequency"], contact_force=force, shoulder=shoulder,
+                               upper_face=upper_face, initial_speed=vehicle.get("speed"))
+
+
+def usable(time: numpy.ndarray, speed: numpy.ndarray) -> numpy.ndarray:
+    """Rows with numbers in them whose times increase (the row of a common time may be written twice)."""
+    finite = numpy.isfinite(time) & numpy.isfinite(speed)
+    latest = numpy.maximum.accumulate(numpy.where(finite, time, -numpy.inf))
+    newer = numpy.concatenate(([True], time[1:] > latest[:-1])) if len(time) else finite
+    return finite & newer
+
+
+def measured(found: dict, series: Series | None, has_ice: bool) -> dict:
+    """What the processes measured, else the series; None where there is nothing to measure."""
+    values = {}
+    for key, (column, which) in MEASURED.items():
+        value = found.get(key)
+        if value is None and series is not None and column and series.has(column):
+            value = series.last(column) if which == "last" else largest(series, column)
+        values[key] = None if key in NEED_ICE and not has_ice else value
+    return values
+
+
+def largest(series: Series, column: str) -> float | None:
+    values = series[column][numpy.isfinite(series[column])]
+    return float(values.max()) if len(values) else None
+
+
+def process_reports(folder: Path, outcome: Outcome) -> dict[str, dict]:
+    """Per process its own report; what the system counted stands in for a process that could not write one."""
+    return {name: {**usage, **read_json(folder / "logs" / f"{name}.json")} for name, usage in outcome.usage.items()}
+
+
+def effect_reports(scene: dict, found: dict, processes: dict[str, dict]) -> dict[str, dict]:
+    """Per effect its final state, the reason, and the time spent under its name in all processes."""
+    reports = {}
+    for name, effect in (scene.get("effects") or {}).items():
+        latest = {**effect, **((found.get("effects") or {}).get(name) or {})}
+        times = [report["seconds"][name] for report in processes.values() if name in (report.get("seconds") or {})]
+        reports[name] = {"state": "on" if latest.get("active") else "off", "requested": latest.get("requested"),
+                         "reason": latest.get("reason"), "time": sum(times) if times else None}
+    return reports
+
+
+def merge(folder: Path, scene: dict, names: list[str], outcome: Outcome, wall_time: float) -> dict:
+    """Writes RUN/summary.json and returns it. All in SI; the keys are there whatever happened, without meaning: null."""
+    speaker = "coupler" if len(names) > 1 else names[0]
+    found = read_json(folder / f"{speaker}_summary.json")
+    series = read_series(series_path(folder, names))
+    passage = passage_of(scene, series)
+    processes = process_reports(folder, outcome)
+    summary = {
+        "state": "failed" if outcome.exit_code else "done",
+        "reason": outcome.reason,
+        "scene": scene.get("name"), "title": scene.get("title"), "level": scene.get("level"),
+        "run": str(folder),
+        "end_reason": found.get("end_reason"),
+        "end_time": found.get("end_time", series.last("time") if series else None),
+        **(asdict(passage) if passage else dict.fromkeys(PASSAGE)),
+        "filter_frequency": (scene.get("run") or {}).get("filter_frequency"),
+        **measured(found, series, bool(scene.get("ice"))),
+        "wall_time": wall_time,
+        "processes": processes,
+        "effects": effect_reports(scene, found, processes),
+    }
+    summary.update({key: value for key, value in found.items() if key not in summary})
+    summary = without_nan(summary)
+    write_json(folder / "summary.json", summary)
+    return summary
+
+
+def without_nan(value: object) -> object:
+    """JSON knows no nan and no infinity: null."""
+    if isinstance(value, dict):
+        return {key: without_nan(entry) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [without_nan(entry) for entry in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
