@@ -1,0 +1,151 @@
+#include "core/scene/effects.hpp"
+
+#include <functional>
+
+namespace polynya::scene {
+namespace {
+
+/// What `auto` decides, and whether "on" can be had: an impossible effect says why in `reason` and stays off.
+struct Decision {
+  bool active;
+  std::string reason;
+  bool possible = true;
+};
+
+Decision impossible(std::string reason) { return {false, std::move(reason), false}; }
+
+struct Rule {
+  std::string name;
+  std::function<Decision(const Scene&)> decide;
+  std::function<void(Scene&)> switch_off;
+};
+
+void nothing(Scene&) {}
+
+Decision not_available(const Scene&) { return impossible("not available in this version"); }
+
+Decision conversion(const Scene& scene) {
+  if (!scene.ice) return impossible("the scene has no ice");
+  if (scene.ice->bending) return {false, "a bending beam breaks without crushing; its elements stay elements"};
+  if (!scene.vehicle) return {false, "nothing strikes the ice"};
+  return {true, "ice elements strained beyond critical_strain become particles"};
+}
+
+Decision ice_failure(const Scene& scene) {
+  if (!scene.ice) return impossible("the scene has no ice");
+  if (scene.material(scene.ice->material).law == "elastic") return impossible("the law of the ice is elastic");
+  return {true, "the law of the ice has damage"};
+}
+
+Decision cavitation(const Scene& scene) {
+  if (!scene.fluid) return impossible("the scene has no fluid");
+  if (scene.fluid->tube) return impossible("a tube holds its states without vapour");
+  return {true, "the pressure of the water is bounded below by its vapour pressure"};
+}
+
+Decision gravity(const Scene& scene) {
+  if (scene.run.gravity == 0) return impossible("run.gravity is 0");
+  if (scene.fluid && scene.fluid->tube) return impossible("a tube lies horizontal");
+  if (scene.ice && scene.ice->bending)
+    return {false, "a floating beam carries no weight between its rollers; only the rollers bend it"};
+  return {true, scene.fluid ? "weight acts on the solids and the water starts hydrostatic" : "weight acts on the solids"};
+}
+
+Decision friction(const Scene& scene) {
+  if (!scene.vehicle || !scene.ice) return impossible("it needs a vehicle and ice");
+  if (scene.contact.friction == 0) return impossible("contact.friction is 0");
+  return {true, "vehicle and ice slide on each other"};
+}
+
+Decision debris_displacement(const Scene& scene) {
+  if (!scene.fluid) return impossible("the scene has no fluid");
+  if (!scene.effect("conversion")) return impossible("no particles arise without conversion");
+  return {true, "particles displace water and air"};
+}
+
+Decision non_reflecting(const Scene& scene) {
+  const bool ice = scene.ice && scene.ice->sides == "non_reflecting";
+  const bool fluid = scene.fluid && !scene.fluid->tube && scene.fluid->outer_boundary == "non_reflecting";
+  if (ice && fluid) return {true, "waves leave through the sides of the ice and the bounds of the fluid"};
+  if (ice) return {true, "waves leave through the sides of the ice"};
+  if (fluid) return {true, "waves leave through the bounds of the fluid"};
+  return impossible("neither ice.sides nor fluid.outer_boundary is non_reflecting");
+}
+
+void make_reflecting(Scene& scene) {
+  if (scene.ice && scene.ice->sides == "non_reflecting") scene.ice->sides = "free";
+  if (scene.fluid) scene.fluid->outer_boundary = "wall";
+}
+
+Decision symmetry(const Scene& scene) {
+  if (scene.symmetry == Symmetry::full) return impossible("symmetry is full");
+  return {true, scene.symmetry == Symmetry::half ? "one of two mirrored halves is modelled"
+                                                 : "one of four mirrored quarters is modelled"};
+}
+
+/// In the order of the decisions: later rules look at what earlier ones decided (fluid is decided before).
+const std::vector<Rule>& rules() {
+  static const std::vector<Rule> list{
+      {"deformable_vehicle",
+       [](const Scene& s) {
+         return s.vehicle ? Decision{true, "the hull is modelled by finite elements"}
+                          : impossible("the scene has no vehicle");
+       },
+       [](Scene& s) {
+         if (s.vehicle) s.vehicle->deformable = false;
+       }},
+      {"ice_failure", ice_failure, nothing},
+      {"conversion", conversion, nothing},
+      {"gradient_correction", not_available, nothing},
+      {"artificial_stress", not_available, nothing},
+      {"interface_reconstruction", not_available, nothing},
+      {"cavitation", cavitation, nothing},
+      {"gravity", gravity, [](Scene& s) { s.run.gravity = 0; }},
+      {"friction", friction, [](Scene& s) { s.contact.friction = 0; }},
+      {"debris_displacement", debris_displacement, nothing},
+      {"debris_drag", not_available, nothing},
+      {"non_reflecting_boundaries", non_reflecting, make_reflecting},
+      {"symmetry", symmetry, [](Scene& s) { s.symmetry = Symmetry::full; }},
+      {"sleeping", not_available, nothing},
+  };
+  return list;
+}
+
+std::string wish(const EffectRequest& request, const std::string& name) {
+  const auto found = request.requested.find(name);
+  return found == request.requested.end() ? "auto" : found->second;
+}
+
+Effect settle(const std::string& name, const std::string& requested, const Decision& decision) {
+  if (requested == "on" && !decision.possible) throw ImpossibleEffect(name, decision.reason);
+  if (requested == "on") return {requested, true, decision.active ? decision.reason : "asked for"};
+  if (requested == "off") return {requested, false, decision.possible ? "switched off in the scene" : decision.reason};
+  return {requested, decision.active, decision.reason};
+}
+
+Decision fluid(const Scene& scene, bool has_section) {
+  if (!has_section) return impossible("the scene has no [water] and [air] section");
+  return {true, scene.fluid->tube ? "the scene is a tube" : "the scene has water and air"};
+}
+
+}  // namespace
+
+const std::vector<std::string>& effect_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list{"fluid"};
+    for (const Rule& rule : rules()) list.push_back(rule.name);
+    return list;
+  }();
+  return names;
+}
+
+void decide_effects(Scene& scene, const EffectRequest& request) {
+  scene.effects["fluid"] = settle("fluid", wish(request, "fluid"), fluid(scene, request.has_fluid_section));
+  if (!scene.effects["fluid"].active) scene.fluid.reset();
+  for (const Rule& rule : rules()) {
+    scene.effects[rule.name] = settle(rule.name, wish(request, rule.name), rule.decide(scene));
+    if (!scene.effects[rule.name].active) rule.switch_off(scene);
+  }
+}
+
+}  // namespace polynya::scene

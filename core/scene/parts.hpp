@@ -1,0 +1,24 @@
+#pragma once
+#include "core/scene/scene.hpp"
+#include "core/scene/values.hpp"
+
+/// The parts of a scene, each filled in from the file's values and checked as far as it stands alone. Internal to the
+/// library.
+namespace polynya::scene {
+
+Vehicle read_vehicle(const Values& values);
+/// Checks the hull against its material; needs the card.
+void check_hull(const Values& values, const Vehicle& vehicle, const MaterialCard& card);
+Ice read_ice(const Values& values);
+Tube read_tube(const Values& values);
+/// z of the nose and checks against ice and water.
+void place_vehicle(const Values& values, Scene& scene);
+/// Latest end, frame interval.
+void read_run(const Values& values, Scene& scene);
+void read_resolution(const Values& values, Scene& scene);
+/// Extent of the fluid; needs the vehicle's place and the end of the run.
+void read_fluid(const Values& values, Scene& scene);
+/// z of the undisturbed free surface: floating draught of the ice, or as given; 0 without water.
+double waterline(const Values& values, const Scene& scene);
+
+}  // namespace polynya::scene

@@ -1,0 +1,131 @@
+// End of the run, resolution, extent of the fluid: what depends on several parts of the scene.
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/parts.hpp"
+
+namespace polynya::scene {
+namespace {
+
+constexpr double reserve = 1.5;            // of the expected duration
+constexpr double plug_factor = 2.6;        // thicknesses travelled until the broken plug lets go of the head
+constexpr double frames = 30;              // of a run, by default
+constexpr int open_water_diameters = 20;   // lateral extent without ice
+constexpr int cells_above_nose = 2;
+constexpr int cells_below_tail = 6;
+constexpr double largest_cells_across = 20000;  // per direction: more is a slip of units
+
+std::string default_end(const Scene& scene) {
+  if (!scene.vehicle) return "time";
+  return scene.ice ? "ice_passed" : "exited";
+}
+
+/// Distance (m) the nose travels until the expected end.
+double expected_way(const Scene& scene, double surface, const std::string& end) {
+  const auto& v = *scene.vehicle;
+  const double thickness = scene.ice ? scene.ice->thickness : 0;
+  const double gap = std::max((scene.ice ? scene.ice->lower_face : surface) - v.nose_position, 0.0);
+  return end == "exited" ? gap + thickness + v.length : gap + v.head_length + plug_factor * thickness;
+}
+
+double end_time(const Values& values, const Scene& scene, double surface) {
+  if (const auto given = values.given("run.end_time")) return *given;
+  if (!scene.vehicle || scene.vehicle->speed == 0 || scene.run.end == "time")
+    values.fail("run.end_time", "missing; must be a time such as \"1.5 ms\" (it is only worked out for a moving vehicle and an end other than time)");
+  return reserve * expected_way(scene, surface, scene.run.end) / scene.vehicle->speed;
+}
+
+void check_end(const Values& values, const Scene& scene) {
+  const auto& end = scene.run.end;
+  if (end == "ice_passed" && !(scene.vehicle && scene.ice)) values.fail("run.end", "needs [vehicle] and [ice]; allowed here is time");
+  if (end == "exited" && !scene.vehicle) values.fail("run.end", "needs [vehicle]; allowed here is time");
+}
+
+}  // namespace
+
+double waterline(const Values& values, const Scene& scene) {
+  double computed = 0;
+  if (scene.ice && values.has("water")) {
+    const double ratio = scene.material(scene.ice->material).value("density") /
+                         scene.material(values.text("water.material")).value("density");
+    if (ratio >= 1) values.fail("ice.material", "ice denser than the water does not float; give water.surface");
+    computed = scene.ice->lower_face + ratio * scene.ice->thickness;
+  }
+  return values.number("water.surface", computed);
+}
+
+void read_run(const Values& values, Scene& scene) {
+  auto& run = scene.run;
+  run.end = values.text("run.end");
+  if (run.end == "auto") run.end = default_end(scene);
+  check_end(values, scene);
+  run.end_time = end_time(values, scene, waterline(values, scene));
+  run.frame_interval = values.number("run.frame_interval", run.end_time / frames);
+  run.step_factor = values.number("run.step_factor");
+  run.fluid_step_factor = values.number("run.fluid_step_factor");
+  run.filter_frequency = values.number("run.filter_frequency");
+  run.gravity = values.number("run.gravity");
+  run.seed = std::lround(values.number("run.seed"));
+}
+
+void read_resolution(const Values& values, Scene& scene) {
+  auto& r = scene.resolution;
+  const double diameter = scene.vehicle ? scene.vehicle->diameter : 10 * values.number("resolution.cell");
+  r.cell = values.number("resolution.cell");
+  r.ice_element = values.number("resolution.ice_element", r.cell);
+  r.vehicle_element = values.number("resolution.vehicle_element", std::min(r.cell, 0.1 * diameter));
+  r.fine_radius = values.number("resolution.fine_radius", 2 * diameter);
+  r.ice_fine_radius = values.number("resolution.ice_fine_radius", 3 * diameter);
+  r.growth = values.number("resolution.growth");
+  r.largest_ice_element = values.number("resolution.largest_ice_element");
+  if (scene.vehicle && r.vehicle_element > scene.vehicle->length)
+    values.fail("resolution.vehicle_element", "must not exceed vehicle.length");
+  if (scene.vehicle && 2 * r.fine_radius < scene.vehicle->diameter)
+    values.fail("resolution.fine_radius", "must be at least the vehicle's radius");
+  if (scene.ice && r.ice_element > scene.ice->thickness)
+    values.fail("resolution.ice_element", "must not exceed ice.thickness (" + std::to_string(scene.ice->thickness) + " m)");
+  if (scene.ice && scene.ice->thickness / r.ice_element > largest_cells_across)
+    values.fail("resolution.ice_element", "gives more than 20000 layers of ice");
+}
+
+Tube read_tube(const Values& values) {
+  const auto state = [&](const std::string& path) {
+    return TubeState{values.text(path + ".material"), values.number(path + ".density", 0), values.number(path + ".velocity"),
+                     values.number(path + ".pressure", 0)};
+  };
+  Tube tube;
+  tube.length = values.number("tube.length", 0);
+  tube.diaphragm = values.number("tube.diaphragm", 0.5 * tube.length);
+  tube.left = state("tube.left"), tube.right = state("tube.right");
+  if (tube.diaphragm >= tube.length) values.fail("tube.diaphragm", "must be below tube.length");
+  if (tube.length / values.number("resolution.cell") > 1e6) values.fail("tube.length", "more than a million cells; enlarge resolution.cell");
+  return tube;
+}
+
+void read_fluid(const Values& values, Scene& scene) {
+  auto& f = *scene.fluid;
+  const auto& v = scene.vehicle;
+  const double cell = scene.resolution.cell;
+  const double open_water = (v ? v->diameter : 10 * cell) * open_water_diameters;
+  f.length = values.number("fluid.length", scene.ice ? scene.ice->length : open_water);
+  f.width = values.number("fluid.width", scene.ice ? scene.ice->width : open_water);
+  f.water = values.text("water.material"), f.air = values.text("air.material");
+  f.waterline = waterline(values, scene);
+  f.atmospheric_pressure = values.number("air.pressure");
+  const auto& water = scene.material(f.water);
+  f.vapour_pressure = water.has("vapour_pressure") ? water.value("vapour_pressure") : 0;
+  f.start = values.text("fluid.start"), f.outer_boundary = values.text("fluid.outer_boundary");
+  f.bottom = (scene.ice ? scene.ice->lower_face : f.waterline) - values.number("water.depth");
+  f.top = (scene.ice ? scene.ice->lower_face + scene.ice->thickness : f.waterline) + values.number("air.height");
+  if (v) {
+    f.bottom = std::min(f.bottom, v->nose_position - v->length - cells_below_tail * cell);
+    f.top = std::max(f.top, v->nose_position + v->speed * scene.run.end_time + cells_above_nose * cell);
+  }
+  if (scene.ice && (f.length < scene.ice->length * (1 - 1e-12) || f.width < scene.ice->width * (1 - 1e-12)))
+    values.fail(f.length < scene.ice->length ? "fluid.length" : "fluid.width", "must not be below that of the ice");
+  if (v && 2 * v->diameter > std::min(f.length, f.width)) values.fail("fluid.length", "must be at least two vehicle diameters");
+  if (f.waterline <= f.bottom || f.waterline >= f.top) values.fail("water.surface", "must lie between bottom and top of the fluid");
+  if ((f.top - f.bottom) / cell > largest_cells_across) values.fail("resolution.cell", "gives more than 20000 cells along z");
+}
+
+}  // namespace polynya::scene

@@ -1,0 +1,187 @@
+#include "core/scene/schema.hpp"
+
+#include <sstream>
+
+#include "core/scene/effects.hpp"
+
+namespace polynya::scene {
+namespace {
+
+namespace dim = dimension;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+KeyRule number(std::string path, Dimension d, std::string fallback, std::string meaning, double lower = -infinity,
+               double upper = infinity) {
+  return {.path = std::move(path), .kind = Kind::quantity, .dimension = d, .fallback = std::move(fallback),
+          .meaning = std::move(meaning), .lower = lower, .upper = upper, .lower_open = false, .choices = {}};
+}
+
+/// A number above zero.
+KeyRule positive(std::string path, Dimension d, std::string fallback, std::string meaning, double upper = infinity) {
+  auto rule = number(std::move(path), d, std::move(fallback), std::move(meaning), 0, upper);
+  rule.lower_open = true;
+  return rule;
+}
+
+KeyRule choice(std::string path, std::vector<std::string> choices, std::string fallback, std::string meaning) {
+  KeyRule rule;
+  rule.path = std::move(path), rule.kind = Kind::choice, rule.fallback = std::move(fallback);
+  rule.meaning = std::move(meaning), rule.choices = std::move(choices);
+  return rule;
+}
+
+KeyRule text(std::string path, std::string fallback, std::string meaning) {
+  KeyRule rule;
+  rule.path = std::move(path), rule.kind = Kind::text, rule.fallback = std::move(fallback);
+  rule.meaning = std::move(meaning);
+  return rule;
+}
+
+KeyRule integer(std::string path, std::string fallback, std::string meaning, double lower) {
+  auto rule = number(std::move(path), dim::none, std::move(fallback), std::move(meaning), lower);
+  rule.kind = Kind::integer;
+  return rule;
+}
+
+std::vector<KeyRule> general_rules() {
+  return {
+      text("title", "the case's name", "one line about the scene"),
+      choice("symmetry", {"auto", "full", "half", "quarter"}, "auto",
+             "modelled part: half is y >= 0, quarter x >= 0 and y >= 0; auto: quarter (a tube: full)"),
+      choice("run.end", {"auto", "ice_passed", "exited", "time"}, "auto",
+             "what ends the run before `end_time`; auto: ice_passed with vehicle and ice, exited with a vehicle alone, "
+             "else time"),
+      positive("run.end_time", dim::time, "auto",
+               "latest end; auto: 1.5 (gap + head + 2.6 thickness) / speed, or 1.5 times the way out of the water"),
+      positive("run.frame_interval", dim::time, "auto", "between field frames; auto: a thirtieth of `end_time`"),
+      positive("run.step_factor", dim::none, "0.9", "fraction of the stable step that the solids use", 1),
+      positive("run.fluid_step_factor", dim::none, "0.5", "fraction of cell / sound speed that the fluid uses", 1),
+      positive("run.filter_frequency", dim::frequency, "20 kHz", "low-pass filter of the reported deceleration"),
+      number("run.gravity", dim::acceleration, "9.81 m/s^2", "along -z", 0),
+      integer("run.seed", "1", "of every random choice", 0),
+      positive("resolution.cell", dim::length, "2 mm", "fluid cell in the fine region"),
+      positive("resolution.ice_element", dim::length, "auto", "ice element in the fine region; auto: `cell`"),
+      positive("resolution.vehicle_element", dim::length, "auto",
+               "along the vehicle; auto: the smaller of `cell` and a tenth of the diameter"),
+      positive("resolution.fine_radius", dim::length, "auto",
+               "half width of the fluid's fine region about the axis; auto: 2 diameters"),
+      positive("resolution.ice_fine_radius", dim::length, "auto",
+               "half width of the ice's fine region about the axis; auto: 3 diameters"),
+      number("resolution.growth", dim::none, "1.15", "largest ratio of neighbouring cells outside", 1, 2),
+      positive("resolution.largest_ice_element", dim::length, "10 mm", "limit of the growth in the ice"),
+  };
+}
+
+std::vector<KeyRule> solid_rules() {
+  return {
+      choice("vehicle.head", {"ogive", "hemisphere", "ellipsoid"}, "ogive", "profile of the head, a body of revolution"),
+      positive("vehicle.head_length", dim::length, "auto", "auto: the diameter (a hemisphere: half of it)"),
+      positive("vehicle.diameter", dim::length, "10 mm", "of the cylinder"),
+      positive("vehicle.length", dim::length, "100 mm", "head included"),
+      choice("vehicle.interior", {"hollow", "solid"}, "hollow", "a hollow hull is closed and dry"),
+      number("vehicle.wall_thickness", dim::length, "0", "of a hollow hull; 0: from `mass`", 0),
+      number("vehicle.mass", dim::mass, "0",
+             "of the full vehicle; 0: from the material's density. A solid vehicle with a mass gets another density", 0),
+      text("vehicle.material", "aluminium", "card, law elastic"),
+      number("vehicle.speed", dim::speed, "40 m/s", "upward, at the start", 0, 1000),
+      number("vehicle.nose_position", dim::length, "auto",
+             "z of the nose at the start; auto: 4 mm below the ice, or below the waterline without ice"),
+      positive("ice.length", dim::length, "200 mm", "along x, of the full plate"),
+      positive("ice.width", dim::length, "200 mm", "along y, of the full plate"),
+      positive("ice.thickness", dim::length, "10 mm", "along z"),
+      number("ice.lower_face", dim::length, "0", "z of the lower face"),
+      text("ice.material", "ice.paper", "card, law johnson_holmquist_2 or elastic"),
+      positive("ice.critical_strain", dim::none, "0.35", "effective strain at which an element becomes a particle"),
+      choice("ice.sides", {"auto", "non_reflecting", "free", "clamped"}, "auto",
+             "lateral faces; auto: non_reflecting, free for a beam"),
+      choice("ice.particles", {"element_centre"}, "element_centre", "where the particles of an element start"),
+      positive("ice.bending.support_span", dim::length, "required", "between the two lower rollers"),
+      positive("ice.bending.load_span", dim::length, "required", "between the two upper rollers"),
+      positive("ice.bending.speed", dim::speed, "required", "of the upper rollers, downward"),
+      number("ice.bending.ramp_time", dim::time, "0", "to reach that speed", 0),
+      number("contact.friction", dim::none, "0.1", "Coulomb coefficient", 0, 2),
+      positive("contact.stiffness_factor", dim::none, "0.1", "contact stiffness as a fraction of mass / window^2", 1),
+  };
+}
+
+std::vector<KeyRule> fluid_rules() {
+  std::vector<KeyRule> rules{
+      text("water.material", "water", "card"),
+      positive("water.depth", dim::length, "120 mm",
+               "below the ice's lower face, or the waterline without ice; deepened to hold the vehicle"),
+      number("water.surface", dim::length, "auto",
+             "z of the undisturbed waterline; auto: draught of the floating ice, 0 without ice"),
+      text("air.material", "air", "card"),
+      positive("air.height", dim::length, "30 mm",
+               "above the ice's upper face or the waterline; raised to hold the vehicle until the end"),
+      number("air.pressure", dim::pressure, "101325 Pa", "atmospheric pressure", 0),
+      positive("fluid.length", dim::length, "auto", "along x, of the full domain; auto: the ice's, 20 diameters without ice"),
+      positive("fluid.width", dim::length, "auto", "along y, likewise"),
+      choice("fluid.start", {"potential_flow", "impulsive"}, "potential_flow", "state of the water around the moving vehicle"),
+      choice("fluid.outer_boundary", {"non_reflecting", "wall"}, "non_reflecting", "sides, bottom and top of the domain"),
+      positive("tube.length", dim::length, "required", "along x; a scene with [tube] holds nothing but the tube"),
+      positive("tube.diaphragm", dim::length, "auto", "x of the diaphragm; auto: the middle"),
+  };
+  for (const std::string side : {"left", "right"}) {
+    const std::string path = "tube." + side + ".";
+    rules.push_back(text(path + "material", "required", "card of a fluid law"));
+    rules.push_back(positive(path + "density", dim::density, "required", ""));
+    rules.push_back(number(path + "velocity", dim::speed, "0", "along x"));
+    rules.push_back(number(path + "pressure", dim::pressure, "required", "absolute"));
+  }
+  return rules;
+}
+
+std::vector<KeyRule> all_rules() {
+  auto rules = general_rules();
+  for (auto& part : {solid_rules(), fluid_rules()}) rules.insert(rules.end(), part.begin(), part.end());
+  for (const auto& name : effect_names())
+    rules.push_back(choice("effects." + name, {"auto", "on", "off"}, "auto", "see the effects below"));
+  for (const std::string name : {"structure", "ice", "fluid"}) {
+    rules.push_back(text("participants." + name + ".command", "", "program to start instead of the project's own"));
+    rules.push_back(text("participants." + name + ".launch", "", "put in front of the command, e.g. \"srun -n 64\""));
+  }
+  return rules;
+}
+
+std::string limit(double value, const Dimension& d) {
+  std::ostringstream stream;
+  stream << value;
+  if (value != 0 && d != dim::none) stream << ' ' << unit_name(d);
+  return stream.str();
+}
+
+}  // namespace
+
+const std::vector<KeyRule>& schema() {
+  static const std::vector<KeyRule> rules = all_rules();
+  return rules;
+}
+
+const KeyRule* find_rule(const std::string& path) {
+  for (const KeyRule& rule : schema())
+    if (rule.path == path) return &rule;
+  return nullptr;
+}
+
+std::string allowed(const KeyRule& rule) {
+  if (rule.kind == Kind::text) return "a text";
+  if (rule.kind == Kind::choice) {
+    std::string list;
+    for (const auto& choice : rule.choices) list += (list.empty() ? "" : ", ") + choice;
+    return (rule.choices.size() > 1 ? "one of " : "") + list;
+  }
+  std::string result = rule.kind == Kind::integer ? "a whole number" : describe(rule.dimension);
+  if (rule.lower > -infinity) result += (rule.lower_open ? ", above " : ", at least ") + limit(rule.lower, rule.dimension);
+  if (rule.upper < infinity) result += ", at most " + limit(rule.upper, rule.dimension);
+  return result;
+}
+
+std::string schema_as_markdown() {
+  std::string table = "| key | allowed | default | meaning |\n| --- | --- | --- | --- |\n";
+  for (const KeyRule& rule : schema())
+    table += "| `" + rule.path + "` | " + allowed(rule) + " | " + rule.fallback + " | " + rule.meaning + " |\n";
+  return table;
+}
+
+}  // namespace polynya::scene
