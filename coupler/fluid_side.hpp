@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/exchange/hub.hpp"
+#include "coupler/account.hpp"
+#include "geometry/cut_cells.hpp"
+
+namespace polynya::coupler {
+
+/// Gauge pressure at the centres of cut cells and its upward decrease, as the fluid used them in a span.
+struct WallPressure {
+  std::vector<double> value;       ///< [entries], Pa
+  std::vector<double> gradient_z;  ///< [entries], Pa/m: p(z) = value - gradient_z (z - z of the cell's centre)
+};
+
+/// What the coupler knows of the fluid participant.
+struct FluidSide {
+  std::string name;
+  double stable_step = 0;  ///< s
+  Account account;
+  geometry::GridLines grid;
+};
+
+FluidSide read_fluid_ready(const std::string& name, const exchange::Message& ready);
+
+/// Adds the overlap arrays of docs/protocol.md to a message for the fluid.
+void add_overlap(exchange::Message& message, const geometry::CutCells& cut);
+
+/// Pressures of one kind from a `pressure` message: "pressure.values" belong to the overlap sent last,
+/// "pressure.previous_values" to the one before. Throws ProtocolError when the number does not fit.
+WallPressure read_pressure(const exchange::Message& message, const std::string& prefix, std::size_t entries);
+
+}  // namespace polynya::coupler

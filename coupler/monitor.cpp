@@ -1,0 +1,156 @@
+#include "coupler/monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace polynya::coupler {
+namespace {
+
+double symmetry_scale(scene::Symmetry symmetry) {
+  if (symmetry == scene::Symmetry::quarter) return 4;
+  return symmetry == scene::Symmetry::half ? 2 : 1;
+}
+
+std::vector<results::Column> progress_columns() {
+  return {{"time", "s"}, {"window", ""}, {"span", ""}, {"vehicle_speed", "m/s"}, {"vehicle_momentum", "kg m/s"},
+          {"vehicle_position", "m"}, {"energy_error", ""}, {"momentum_error", ""}, {"contact_force", "N"},
+          {"fluid_force", "N"}, {"head_stress", "Pa"}, {"vehicle_kinetic", "J"}, {"vehicle_internal", "J"},
+          {"ice_kinetic", "J"}, {"ice_internal", "J"}, {"fluid_energy_change", "J"}, {"contact_energy", "J"},
+          {"dissipated", "J"}, {"external_work", "J"}, {"numerical_work", "J"}, {"broken_ice_mass", "kg"},
+          {"converted_elements", ""}, {"particles", ""}, {"wall_pressure", "Pa"}, {"contact_depth", "m"},
+          {"fluid_step", "s"}, {"window_step", "s"}};
+}
+
+}  // namespace
+
+Monitor::Monitor(const scene::Scene& scene, const std::string& run_folder, const Conversation& conversation)
+    : scene_(scene), series_(run_folder + "/series/coupler.csv", progress_columns()),
+      scale_(symmetry_scale(scene.symmetry)) {
+  read_vehicle(conversation);
+  initial_speed_ = speed_;
+  if (const SolidSide* vehicle = conversation.find(Body::vehicle)) {
+    initial_kinetic_ = 0.5 * mass_ * speed_ * speed_;
+    initial_momentum_ = vehicle->account["momentum_z"];
+  }
+}
+
+void Monitor::read_vehicle(const Conversation& conversation) {
+  const SolidSide* vehicle = conversation.find(Body::vehicle);
+  if (!vehicle) return;
+  mass_ = vehicle->account["mass"];
+  if (mass_ > 0) speed_ = vehicle->account["momentum_z"] / mass_;
+  nose_ = -1e300;
+  for (std::size_t v = 0; v < vehicle->vertices(); ++v) nose_ = std::max(nose_, vehicle->positions[3 * v + 2]);
+}
+
+void Monitor::note_contact(const contact::ContactForces& forces) {
+  deepest_contact_ = std::max(deepest_contact_, forces.deepest);
+}
+
+void Monitor::note_pressure(const geometry::CutCells& cells, const WallPressure& pressure) {
+  wall_pressure_ = 0;
+  constexpr auto vehicle = static_cast<std::size_t>(Body::vehicle);
+  for (std::size_t e = 0; e < cells.cell.size(); ++e) {
+    const double* area = &cells.wall_area[(e * body_count + vehicle) * 3];
+    if (area[0] != 0 || area[1] != 0 || area[2] != 0) wall_pressure_ = std::max(wall_pressure_, pressure.value[e]);
+  }
+  peak_wall_pressure_ = std::max(peak_wall_pressure_, wall_pressure_);
+}
+
+Balance balance(const Conversation& conversation, const Ledger& ledger) {
+  Balance sum;
+  for (const SolidSide& side : conversation.solids) {
+    double& stored = side.body == Body::vehicle ? sum.vehicle : sum.ice;
+    stored = side.account.change({"kinetic", "internal", "hourglass", "viscous", "conversion_heat", "particle_kinetic",
+                                  "particle_internal", "particle_viscous"});
+    sum.external += side.account.change("gravity_work") - side.account.change("boundary_flux");
+    sum.numerical += side.account.change("step_change");
+    const Impulse held = outstanding(side);
+    sum.momentum += side.account.change("momentum_z") - side.account.change("boundary_impulse_z") -
+                    side.account.change("gravity_impulse_z") + held[2];
+  }
+  if (conversation.fluid) {
+    const Account& fluid = conversation.fluid->account;
+    sum.fluid = fluid.change({"kinetic", "internal", "gravity", "remap_loss"});
+    sum.external += fluid.change({"boundary_work", "boundary_energy"});
+    sum.numerical += fluid.change({"swept_defect", "debris_work", "node_fix_work"});
+    sum.momentum += fluid.change("momentum_z") - fluid.change("boundary_impulse_z") -
+                    fluid.change("gravity_impulse_z");
+  }
+  sum.contact = ledger.contact_stored + ledger.contact_friction + ledger.contact_released;
+  return sum;
+}
+
+void Monitor::append_row(const TimeKeeper& keeper, const Conversation& conversation, const Ledger& ledger,
+                         double window_step) {
+  read_vehicle(conversation);
+  const SolidSide* vehicle = conversation.find(Body::vehicle);
+  const SolidSide* ice = conversation.find(Body::ice);
+  static const Account nothing;
+  const Account& v = vehicle ? vehicle->account : nothing;
+  const Account& i = ice ? ice->account : nothing;
+
+  const Balance sum = balance(conversation, ledger);
+  const double energy_error = initial_kinetic_ > 0 ? std::abs(sum.energy_defect()) / initial_kinetic_ : 0;
+  const double momentum_error = initial_momentum_ != 0 ? std::abs(sum.momentum / initial_momentum_) : 0;
+  largest_energy_error_ = std::max(largest_energy_error_, energy_error);
+  largest_momentum_error_ = std::max(largest_momentum_error_, momentum_error);
+  peak_head_stress_ = std::max(peak_head_stress_, v["head_stress"]);
+
+  constexpr int body = static_cast<int>(Body::vehicle);
+  const double passed = std::max(keeper.time - time_before_, 1e-300);
+  const double contact_force = (ledger.contact_impulse[body][2] - contact_before_[2]) / passed;
+  const double fluid_force = (ledger.fluid_taken[body][2] - fluid_before_[2]) / passed;
+  contact_before_ = ledger.contact_impulse[body];
+  fluid_before_ = ledger.fluid_taken[body];
+  time_before_ = keeper.time;
+
+  const double row[] = {keeper.time, static_cast<double>(keeper.window), static_cast<double>(keeper.span), speed_,
+                        scale_ * v["momentum_z"], v["centre_of_mass_z"], energy_error, momentum_error,
+                        scale_ * contact_force, scale_ * fluid_force, v["head_stress"], scale_ * v["kinetic"],
+                        scale_ * v["internal"], scale_ * (i["kinetic"] + i["particle_kinetic"]),
+                        scale_ * (i["internal"] + i["particle_internal"]), scale_ * sum.fluid, scale_ * sum.contact,
+                        scale_ * (ledger.contact_friction + i["viscous"] + i["hourglass"] + i["conversion_heat"]),
+                        scale_ * sum.external, scale_ * sum.numerical, scale_ * i["broken_mass"],
+                        i["converted_elements"], i["particles"], wall_pressure_, deepest_contact_,
+                        keeper.time - keeper.span_start, window_step};
+  series_.append(row);
+}
+
+nlohmann::json Monitor::summary(const TimeKeeper& keeper, const Conversation& conversation,
+                                const Ledger& ledger) const {
+  const Balance sum = balance(conversation, ledger);
+  nlohmann::json summary;
+  summary["end_time"] = keeper.time;
+  summary["windows"] = keeper.window;
+  summary["steps"] = keeper.window;
+  summary["spans"] = keeper.span;
+  if (conversation.find(Body::vehicle)) {
+    summary["initial_speed"] = initial_speed_;
+    summary["residual_speed"] = speed_;
+    summary["peak_head_stress"] = peak_head_stress_;
+  }
+  if (const SolidSide* ice = conversation.find(Body::ice)) {
+    summary["broken_ice_mass"] = scale_ * ice->account["broken_mass"];
+    summary["converted_elements"] = ice->account["converted_elements"];
+    summary["particles"] = ice->account["particles"];
+  }
+  summary["energy_error"] = initial_kinetic_ > 0 ? std::abs(sum.energy_defect()) / initial_kinetic_ : 0;
+  summary["momentum_error"] = initial_momentum_ != 0 ? std::abs(sum.momentum / initial_momentum_) : 0;
+  summary["largest_energy_error"] = largest_energy_error_;
+  summary["largest_momentum_error"] = largest_momentum_error_;
+  summary["peak_wall_pressure"] = peak_wall_pressure_;
+  summary["deepest_contact"] = deepest_contact_;
+  summary["balance"] = {{"vehicle", scale_ * sum.vehicle}, {"ice", scale_ * sum.ice}, {"fluid", scale_ * sum.fluid},
+                        {"contact", scale_ * sum.contact}, {"external", scale_ * sum.external},
+                        {"numerical", scale_ * sum.numerical}, {"defect", scale_ * sum.energy_defect()}};
+  for (const SolidSide& side : conversation.solids)
+    for (std::size_t n = 0; n < side.account.names().size(); ++n)
+      summary["accounts"][side.name][side.account.names()[n]] = side.account.values()[n];
+  if (conversation.fluid)
+    for (std::size_t n = 0; n < conversation.fluid->account.names().size(); ++n)
+      summary["accounts"]["fluid"][conversation.fluid->account.names()[n]] = conversation.fluid->account.values()[n];
+  return summary;
+}
+
+}  // namespace polynya::coupler

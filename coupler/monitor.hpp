@@ -1,0 +1,57 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "core/contact/penalty_contact.hpp"
+#include "core/results/time_series.hpp"
+#include "core/scene/scene.hpp"
+#include "coupler/conversation.hpp"
+#include "coupler/ledger.hpp"
+#include "coupler/time_keeper.hpp"
+
+namespace polynya::coupler {
+
+/// Energy and momentum of the whole coupled system relative to the start. All of the modelled part (J, N s).
+struct Balance {
+  double vehicle = 0, ice = 0, fluid = 0;  ///< J, change of what each stores, losses that are booked included
+  double contact = 0;                      ///< J, stored in penalty springs, dissipated by friction, released
+  double external = 0;                     ///< J, put in from outside: gravity, boundaries
+  double numerical = 0;                    ///< J, put in by booked defects of the scheme (swept volume, debris)
+  double momentum = 0;                     ///< kg m/s, change of vertical momentum less outside impulses
+  double energy_defect() const { return vehicle + ice + fluid + contact - external - numerical; }
+};
+
+/// Watches a coupled run: vehicle motion, energy and momentum errors, RUN/series/coupler.csv (one row per span, values
+/// of the full vehicle and plate whatever the symmetry).
+class Monitor {
+ public:
+  Monitor(const scene::Scene& scene, const std::string& run_folder, const Conversation& conversation);
+
+  void note_contact(const contact::ContactForces& forces);
+  /// Largest gauge pressure on the vehicle's wall.
+  void note_pressure(const geometry::CutCells& cells, const WallPressure& pressure);
+
+  double nose() const { return nose_; }    ///< m
+  double speed() const { return speed_; }  ///< m/s, of the centre of mass, upward
+
+  void append_row(const TimeKeeper& keeper, const Conversation& conversation, const Ledger& ledger, double window_step);
+  nlohmann::json summary(const TimeKeeper& keeper, const Conversation& conversation, const Ledger& ledger) const;
+
+ private:
+  void read_vehicle(const Conversation& conversation);
+
+  const scene::Scene& scene_;
+  results::TimeSeries series_;
+  double scale_ = 1;  ///< full model over modelled part
+  double initial_kinetic_ = 0, initial_momentum_ = 0, initial_speed_ = 0;
+  double nose_ = 0, speed_ = 0, mass_ = 0;
+  double largest_energy_error_ = 0, largest_momentum_error_ = 0;
+  double peak_head_stress_ = 0, peak_wall_pressure_ = 0, wall_pressure_ = 0, deepest_contact_ = 0;
+  Impulse contact_before_{}, fluid_before_{};
+  double time_before_ = 0;
+};
+
+/// Changes of all reservoirs since the start.
+Balance balance(const Conversation& conversation, const Ledger& ledger);
+
+}  // namespace polynya::coupler

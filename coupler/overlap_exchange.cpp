@@ -1,0 +1,75 @@
+#include "coupler/overlap_exchange.hpp"
+
+#include "geometry/exact_cut.hpp"
+
+namespace polynya::coupler {
+
+OverlapExchange::OverlapExchange(const FluidSide& fluid, bool debris_displaces_fluid)
+    : cutter_(fluid.grid), debris_displaces_fluid_(debris_displaces_fluid) {}
+
+std::vector<geometry::BodySurface> OverlapExchange::Cut::views() const {
+  std::vector<geometry::BodySurface> bodies(body_count);
+  for (const Surface& surface : surfaces) bodies[static_cast<std::size_t>(surface.body)] = surface.view();
+  return bodies;
+}
+
+const geometry::CutCells& OverlapExchange::cut(const Conversation& conversation) {
+  std::swap(before_, now_);
+  now_.surfaces.resize(conversation.solids.size());
+  for (std::size_t s = 0; s < conversation.solids.size(); ++s) {
+    const SolidSide& side = conversation.solids[s];
+    Cut::Surface& surface = now_.surfaces[s];
+    surface.body = side.body;
+    surface.ids = side.ids;
+    surface.positions = side.positions;
+    surface.velocities = side.velocities;
+    surface.triangles = side.triangles;
+  }
+  cutter_.cut(now_.views(), now_.cells);
+  if (debris_displaces_fluid_) {
+    std::vector<double> positions, volumes;
+    for (const SolidSide& side : conversation.solids)
+      for (std::size_t v = 0; v < side.vertices(); ++v) {
+        if (side.volumes[v] <= 0) continue;
+        volumes.push_back(side.volumes[v]);
+        positions.insert(positions.end(), &side.positions[3 * v], &side.positions[3 * v] + 3);
+      }
+    if (!volumes.empty()) cutter_.deposit_debris(positions, volumes, now_.cells);
+  }
+  return now_.cells;
+}
+
+void OverlapExchange::give(SolidSide& side, const Cut& cut, std::int32_t index, const WallPressure& pressure,
+                           double factor, Ledger& ledger) const {
+  const Cut::Surface* surface = nullptr;
+  for (const Cut::Surface& candidate : cut.surfaces)
+    if (candidate.body == side.body) surface = &candidate;
+  if (!surface) return;
+  std::vector<double> impulses(surface->positions.size(), 0.0);
+  geometry::add_pressure_forces(cut.cells, cutter_.grid(), index, surface->view(), pressure.value, pressure.gradient_z,
+                                impulses);
+  for (double& value : impulses) value *= factor;
+  for (std::size_t i = 0; i < impulses.size(); ++i) ledger.fluid_given[static_cast<int>(side.body)][i % 3] += impulses[i];
+  add_fluid_impulses(side, surface->ids, surface->positions, impulses);
+}
+
+void OverlapExchange::give_impulses(Conversation& conversation, const WallPressure& at_start,
+                                    const WallPressure& at_end, double span, Ledger& ledger) const {
+  for (SolidSide& side : conversation.solids) {
+    const auto body = static_cast<std::int32_t>(side.body);
+    give(side, before_, body, at_start, 0.5 * span, ledger);
+    give(side, now_, body, at_end, 0.5 * span, ledger);
+  }
+}
+
+void OverlapExchange::give_first_impulses(Conversation& conversation, const WallPressure& pressure, double span,
+                                          Ledger& ledger) const {
+  for (SolidSide& side : conversation.solids)
+    give(side, now_, static_cast<std::int32_t>(side.body), pressure, span, ledger);
+}
+
+double OverlapExchange::verify_sample(std::uint64_t seed, std::size_t count) const {
+  return geometry::verify_sample(now_.cells, now_.views(), cutter_.grid(), seed, count);
+}
+
+}  // namespace polynya::coupler

@@ -1,0 +1,56 @@
+#pragma once
+#include "coupler/conversation.hpp"
+#include "coupler/ledger.hpp"
+
+namespace polynya::coupler {
+
+/// Lets the solids' surfaces cut the fluid's grid and turns the fluid's pressures into impulses on surface vertices.
+///
+/// Over a span the fluid sees walls that are the mean of those at its start and its end, so the impulse it gives to a
+/// piece of wall is span * pressure * (area at the start + area at the end) / 2. The same two sets of pieces hand it to
+/// the vertices: what the fluid gave and what the solids get agree to rounding.
+class OverlapExchange {
+ public:
+  OverlapExchange(const FluidSide& fluid, bool debris_displaces_fluid);
+
+  /// Cuts the grid by the solids where they are now and remembers the cut before.
+  const geometry::CutCells& cut(const Conversation& conversation);
+
+  /// Adds the impulses of a span of length `span` (s) to the solids' outstanding fluid impulses and to the ledger.
+  /// `at_start` belongs to the cut before, `at_end` to the last one. Surfaces may have lost vertices in between.
+  void give_impulses(Conversation& conversation, const WallPressure& at_start, const WallPressure& at_end, double span,
+                     Ledger& ledger) const;
+
+  /// The same for the start of a run, where there is only one cut.
+  void give_first_impulses(Conversation& conversation, const WallPressure& pressure, double span,
+                           Ledger& ledger) const;
+
+  const geometry::CutCells& before() const { return before_.cells; }
+
+  /// Recuts a seeded sample of cells by CGAL's exact kernel. Returns the largest difference relative to the cell's
+  /// volume.
+  double verify_sample(std::uint64_t seed, std::size_t count) const;
+
+ private:
+  /// A cut with the surfaces that made it.
+  struct Cut {
+    geometry::CutCells cells;
+    struct Surface {
+      Body body;
+      std::vector<std::int64_t> ids;
+      std::vector<double> positions, velocities;
+      std::vector<std::int32_t> triangles;
+      geometry::BodySurface view() const { return {positions, velocities, triangles}; }
+    };
+    std::vector<Surface> surfaces;
+    std::vector<geometry::BodySurface> views() const;
+  };
+  void give(SolidSide& side, const Cut& cut, std::int32_t index, const WallPressure& pressure, double factor,
+            Ledger& ledger) const;
+
+  geometry::Cutter cutter_;
+  bool debris_displaces_fluid_;
+  Cut before_, now_;
+};
+
+}  // namespace polynya::coupler

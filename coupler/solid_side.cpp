@@ -1,0 +1,134 @@
+#include "coupler/solid_side.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "core/exchange/errors.hpp"
+
+namespace polynya::coupler {
+namespace {
+
+template <class T>
+void copy_array(const exchange::Message& message, const char* name, std::vector<T>& target) {
+  const auto values = message.view<T>(name);
+  target.assign(values.begin(), values.end());
+}
+
+void require_size(const exchange::Message& message, const char* name, std::size_t found, std::size_t expected) {
+  if (found != expected)
+    throw exchange::ProtocolError("message '" + message.kind() + "': array '" + name + "' holds " +
+                                  std::to_string(found) + " values, " + std::to_string(expected) +
+                                  " are needed for the vertices announced by 'surface.ids'");
+}
+
+void read_topology(SolidSide& side, const exchange::Message& message) {
+  copy_array(message, "surface.ids", side.ids);
+  copy_array(message, "surface.masses", side.masses);
+  copy_array(message, "surface.radius", side.radii);
+  copy_array(message, "surface.volume", side.volumes);
+  copy_array(message, "surface.triangles", side.triangles);
+  require_size(message, "surface.masses", side.masses.size(), side.ids.size());
+  require_size(message, "surface.radius", side.radii.size(), side.ids.size());
+  require_size(message, "surface.volume", side.volumes.size(), side.ids.size());
+  for (const std::int32_t v : side.triangles)
+    if (v < 0 || static_cast<std::size_t>(v) >= side.ids.size())
+      throw exchange::ProtocolError("message '" + message.kind() + "': array 'surface.triangles' refers to vertex " +
+                                    std::to_string(v) + " of " + std::to_string(side.ids.size()));
+}
+
+void read_motion(SolidSide& side, const exchange::Message& message) {
+  copy_array(message, "positions", side.positions);
+  copy_array(message, "velocities", side.velocities);
+  require_size(message, "positions", side.positions.size(), 3 * side.ids.size());
+  require_size(message, "velocities", side.velocities.size(), 3 * side.ids.size());
+  for (std::size_t i = 0; i < side.positions.size(); ++i)
+    if (!std::isfinite(side.positions[i]) || !std::isfinite(side.velocities[i]))
+      throw std::runtime_error(side.name + ": vertex " + std::to_string(side.ids[i / 3]) +
+                               " has a position or velocity that is not a finite number");
+}
+
+std::size_t nearest_vertex(const SolidSide& side, const double* p) {
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t v = 0; v < side.vertices(); ++v) {
+    double squared = 0;
+    for (int d = 0; d < 3; ++d) squared += (side.positions[3 * v + d] - p[d]) * (side.positions[3 * v + d] - p[d]);
+    if (squared < least) {
+      least = squared;
+      best = v;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+void add_fluid_impulses(SolidSide& side, std::span<const std::int64_t> ids, std::span<const double> positions,
+                        std::span<const double> impulses) {
+  if (side.vertices() == 0) return;
+  std::unordered_map<std::int64_t, std::size_t> index;
+  const bool same = ids.size() == side.ids.size() && std::equal(ids.begin(), ids.end(), side.ids.begin());
+  if (!same) {
+    index.reserve(side.vertices());
+    for (std::size_t v = 0; v < side.vertices(); ++v) index[side.ids[v]] = v;
+  }
+  for (std::size_t old = 0; old < ids.size(); ++old) {
+    const double* impulse = &impulses[3 * old];
+    if (impulse[0] == 0 && impulse[1] == 0 && impulse[2] == 0) continue;
+    std::size_t v = old;
+    if (!same) {
+      const auto found = index.find(ids[old]);
+      v = found != index.end() ? found->second : nearest_vertex(side, &positions[3 * old]);
+    }
+    for (int d = 0; d < 3; ++d) side.fluid_impulse[3 * v + d] += impulse[d];
+  }
+}
+
+void read_ready(SolidSide& side, const exchange::Message& ready) {
+  side.stable_step = ready.header.at("stable_step").get<double>();
+  side.account.set_names(ready);
+  read_topology(side, ready);
+  read_motion(side, ready);
+  side.fluid_impulse.assign(3 * side.vertices(), 0.0);
+  side.contact_force.assign(3 * side.vertices(), 0.0);
+  side.fluid_force.assign(3 * side.vertices(), 0.0);
+}
+
+void read_surface(SolidSide& side, const exchange::Message& surface) {
+  side.stable_step = surface.header.at("stable_step").get<double>();
+  side.account.update(surface);
+  side.topology_changed = surface.header.value("topology_changed", false);
+  if (!side.topology_changed) {
+    read_motion(side, surface);
+    return;
+  }
+  const std::vector<std::int64_t> old_ids = side.ids;
+  const std::vector<double> old_positions = side.positions;
+  const std::vector<double> old_impulse = std::move(side.fluid_impulse);
+  read_topology(side, surface);
+  read_motion(side, surface);
+  side.fluid_impulse.assign(3 * side.vertices(), 0.0);
+  add_fluid_impulses(side, old_ids, old_positions, old_impulse);
+}
+
+exchange::Message make_loads(const SolidSide& side) {
+  std::vector<std::int64_t> vertices;
+  std::vector<double> forces;
+  for (std::size_t v = 0; v < side.vertices(); ++v) {
+    const double force[3] = {side.contact_force[3 * v] + side.fluid_force[3 * v],
+                             side.contact_force[3 * v + 1] + side.fluid_force[3 * v + 1],
+                             side.contact_force[3 * v + 2] + side.fluid_force[3 * v + 2]};
+    if (force[0] == 0 && force[1] == 0 && force[2] == 0) continue;
+    vertices.push_back(static_cast<std::int64_t>(v));
+    forces.insert(forces.end(), force, force + 3);
+  }
+  exchange::Message loads("loads");
+  const auto count = static_cast<std::int64_t>(vertices.size());
+  loads.add<std::int64_t>("load.vertices", {count}, vertices);
+  loads.add<double>("load.forces", {count, 3}, forces);
+  return loads;
+}
+
+}  // namespace polynya::coupler

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "coupler/account.hpp"
+
+namespace polynya::coupler {
+
+enum class Body { vehicle = 0, ice = 1 };
+inline constexpr int body_count = 2;
+
+/// What the coupler knows of a solid participant: its surface now, the loads it was given last, its account.
+/// Vertices are surface nodes followed by particles; arrays [nv] or [nv][3].
+struct SolidSide {
+  std::string name;  ///< participant name: "structure", "ice"
+  Body body = Body::vehicle;
+  double stable_step = 0;  ///< s
+  Account account;
+
+  std::vector<std::int64_t> ids;
+  std::vector<double> masses, radii, volumes;  ///< kg, m, m^3
+  std::vector<std::int32_t> triangles;         ///< [nt][3], outward oriented
+  std::vector<double> positions;               ///< m, at the end of the window
+  std::vector<double> velocities;              ///< m/s, in the middle of the window
+  bool topology_changed = false;
+
+  std::vector<double> contact_force;     ///< N, of this window
+  std::vector<double> fluid_force;       ///< N, of this window
+  std::vector<double> fluid_impulse;     ///< N s, given by the fluid and not yet handed on
+
+  std::size_t vertices() const { return ids.size(); }
+};
+
+void read_ready(SolidSide& side, const exchange::Message& ready);
+
+/// Adds impulses ([n][3], N s) of the vertices `ids`, which were at `positions` ([n][3], m), to the side's outstanding
+/// fluid impulses. The impulse of a vertex that vanished goes to the nearest vertex there is: none is lost.
+void add_fluid_impulses(SolidSide& side, std::span<const std::int64_t> ids, std::span<const double> positions,
+                        std::span<const double> impulses);
+
+/// Takes over the surface of a new window; outstanding fluid impulses follow their vertices.
+void read_surface(SolidSide& side, const exchange::Message& surface);
+
+/// Loads of this window: contact plus fluid forces of all vertices where they are not zero.
+exchange::Message make_loads(const SolidSide& side);
+
+}  // namespace polynya::coupler
