@@ -76,7 +76,8 @@ struct Hub::State {
         if (member.presence == Presence::here && member.connection == connection) leaving.push_back(name);
   }
 
-  void lose(const std::vector<std::string>& gone) {
+  void lose(std::vector<std::string> gone) {
+    std::erase_if(gone, [&](const std::string& name) { return members[name].presence != Presence::here; });
     for (const std::string& name : gone) members[name].presence = Presence::departed;
     if (!gone.empty())
       throw ParticipantLost(gone.front(),
@@ -193,8 +194,8 @@ void Hub::send(const std::string& name, Message&& message) {
   const bool last = message.kind() == "bye";
   if (member.presence != Presence::here) throw ParticipantLost(name, "is not part of the run at this time");
   if (!state_->transport.send(member.route, std::move(message), state_->envelope)) {
-    while (member.presence == Presence::here)
-      state_->attend(second_look);  // throws, with its own reason if it gave one
+    // What it said last is still to be read: these rounds throw, with its own reason if it gave one.
+    for (int round = 0; round < 3; ++round) state_->attend(second_look);
     throw ParticipantLost(name, "cannot be reached any more");
   }
   if (last) member.presence = Presence::departed;

@@ -2,6 +2,7 @@
 
 #include <poll.h>
 #include <sys/un.h>
+#include <unistd.h>
 
 #include <cstring>
 #include <set>
@@ -90,12 +91,16 @@ struct Transport::State {
     } catch (const zmq::error_t& error) {
       throw EndpointError("endpoint '" + endpoint + "': " + error.what());
     }
+    read_monitor();  // once, so that its descriptor reports what comes from now on: see next()
   }
 
   ~State() {
     zmq_socket_monitor(socket.handle(), nullptr, 0);
-    // Closing alone would leave the removal of the socket file to a thread that a lingering message keeps busy.
-    if (side == Side::coupler) zmq_unbind(socket.handle(), socket.get(zmq::sockopt::last_endpoint).c_str());
+    if (side == Side::participant) return;
+    const std::string address = socket.get(zmq::sockopt::last_endpoint);
+    zmq_unbind(socket.handle(), address.c_str());
+    // ZeroMQ leaves the socket file behind.
+    if (is_local(address)) unlink(address.c_str() + std::strlen("ipc://"));
   }
 
   std::optional<Delivery> take() {
@@ -166,7 +171,7 @@ std::vector<int> Transport::closed_connections() {
 
 bool Transport::is_open(int connection) {
   state_->read_monitor();
-  return state_->open.contains(connection);
+  return connection < 0 || state_->open.contains(connection);
 }
 
 bool Transport::send(const std::string& route, Message&& message, const Envelope& envelope) {

@@ -37,6 +37,7 @@ class Transport {
 
   /// Connections that the other side closed since the last call, oldest first.
   std::vector<int> closed_connections();
+  /// Whether a delivery's connection is still there; true for an unknown one (-1).
   bool is_open(int connection);
 
   /// Queues a message; arrays are moved out of it. False when nobody is at this route any more.
