@@ -128,8 +128,11 @@ Document take_below(Document& document, const std::string& prefix) {
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   std::string best;
   std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& candidate : candidates)
-    if (const std::size_t count = edits(word, candidate); count < fewest) fewest = count, best = candidate;
+  for (const std::string& candidate : candidates) {
+    const std::size_t count = edits(word, candidate);
+    const bool longer = count == fewest && candidate.starts_with(word);  // a word cut short is the likelier slip
+    if (count < fewest || longer) fewest = count, best = candidate;
+  }
   return best;
 }
 

@@ -54,7 +54,9 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::cerr << "resolve_scene: " << error.what() << '\n';
+    return 2;
   }
   try {
     if (keys) return write(schema_as_markdown(), output), 0;

@@ -82,10 +82,11 @@ void read_resolution(const Values& values, Scene& scene) {
     values.fail("resolution.vehicle_element", "must not exceed vehicle.length");
   if (scene.vehicle && 2 * r.fine_radius < scene.vehicle->diameter)
     values.fail("resolution.fine_radius", "must be at least the vehicle's radius");
+  const std::string element = values.given("resolution.ice_element") ? "resolution.ice_element" : "resolution.cell";
   if (scene.ice && r.ice_element > scene.ice->thickness)
-    values.fail("resolution.ice_element", "must not exceed ice.thickness (" + std::to_string(scene.ice->thickness) + " m)");
+    values.fail(element, "the ice element must not exceed ice.thickness");
   if (scene.ice && scene.ice->thickness / r.ice_element > largest_cells_across)
-    values.fail("resolution.ice_element", "gives more than 20000 layers of ice");
+    values.fail(element, "gives more than 20000 layers of ice");
 }
 
 Tube read_tube(const Values& values) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace polynya::scene {
 namespace {
@@ -144,16 +145,18 @@ std::string describe(const Dimension& dimension) {
 
 std::string unit_name(const Dimension& dimension) {
   if (dimension == dimension::pressure) return "Pa";
-  if (dimension == dimension::frequency) return "1/s";
-  std::string name;
-  const auto add = [&](int exponent, const char* symbol) {
-    if (exponent == 0) return;
-    if (!name.empty()) name += ' ';
-    name += symbol;
-    if (exponent != 1) name.append("^").append(std::to_string(exponent));
-  };
-  add(dimension.mass, "kg"), add(dimension.length, "m"), add(dimension.time, "s"), add(dimension.temperature, "K");
-  return name;
+  const std::array<std::pair<int, const char*>, 4> parts{
+      {{dimension.mass, "kg"}, {dimension.length, "m"}, {dimension.time, "s"}, {dimension.temperature, "K"}}};
+  std::string above, below;
+  for (const auto& [exponent, symbol] : parts) {
+    if (exponent == 0) continue;
+    std::string& text = exponent > 0 ? above : below;
+    if (exponent > 0 && !text.empty()) text += ' ';
+    if (exponent < 0) text += '/';
+    text += symbol;
+    if (std::abs(exponent) != 1) text.append("^").append(std::to_string(std::abs(exponent)));
+  }
+  return above.empty() && !below.empty() ? '1' + below : above + below;
 }
 
 }  // namespace polynya::scene

@@ -28,7 +28,7 @@ Quantity parse_quantity(std::string_view text);
 /// "a length", "a speed", ... with an example: `a speed such as "40 m/s"`.
 std::string describe(const Dimension& dimension);
 
-/// The SI unit: "m", "m/s", "kg m^-1 s^-2", ...; empty for a plain number.
+/// The SI unit: "m", "m/s", "kg/m^3", "1/s", "Pa", ...; empty for a plain number.
 std::string unit_name(const Dimension& dimension);
 
 }  // namespace polynya::scene

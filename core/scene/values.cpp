@@ -60,10 +60,22 @@ std::string siblings(const std::string& path) {
   return list;
 }
 
+std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+/// A key elsewhere whose last part holds that of `path`: "speed" -> "vehicle.speed".
+std::string elsewhere(const std::string& path) {
+  if (last_part(path).size() < 4) return {};
+  for (const KeyRule& rule : schema())
+    if (last_part(rule.path).find(last_part(path)) != std::string::npos) return rule.path;
+  return {};
+}
+
 [[noreturn]] void fail_unknown(const std::string& where, const std::string& path, const std::string& kind,
                                const std::vector<std::string>& candidates) {
   std::string message = where + ": unknown " + kind + " '" + path + "'";
-  if (const auto near = nearest(path, candidates); !near.empty())
+  auto near = nearest(path, candidates);
+  if (near.empty()) near = elsewhere(path);
+  if (!near.empty())
     message += "; did you mean '" + near + "'?";
   else if (const auto list = siblings(path); !list.empty())
     message += "; allowed here: " + list;
