@@ -92,6 +92,6 @@ def time_to_position(scene: dict, row: dict[str, float]) -> float:
     speed = row.get("vehicle_speed", 0.0)
     if not vehicle or not ice or end not in ("ice_passed", "exited") or speed <= 0:
         return math.inf
-    behind = vehicle["length"] if end == "exited" else vehicle["head_length"]
+    behind = vehicle["length"] if end == "exited" else vehicle["head_length"] + vehicle["diameter"]
     way = ice["lower_face"] + ice["thickness"] + behind - vehicle["nose_position"]
     return max(0.0, way - vehicle["speed"] * row["time"]) / speed

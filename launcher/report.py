@@ -34,7 +34,9 @@ def value(summary: dict, key: str, unit: str) -> str:
     if unit == "wall":
         return units.duration(number)
     if unit == "kg":
-        return units.readable(1000 * number, "g")
+        return f"{units.number(1000 * number)} g"
+    if unit == "s":
+        return f"{units.number(1000 * number)} ms"
     if unit.startswith("m/s"):
         return f"{units.number(number, 4)} {unit}" if abs(number) < 1e4 else f"{units.count(number)} {unit}"
     return units.readable(number, unit)

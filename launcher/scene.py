@@ -8,25 +8,28 @@ from pathlib import Path
 from launcher import ROOT, WRONG_INPUT, Failure, WrongInput, build
 
 SCENE_FILE = "scene.toml"
+SOLVERS = ("structure", "ice", "fluid")
 
 
 def find(words: str) -> Path:
     """The scene file meant by a path: a file, one without its .toml, or a folder holding one. Raises WrongInput."""
-    for start in (Path(words).resolve(), (ROOT / words).resolve()):
+    for start in (Path(words).resolve(), *(folder / words for folder in (ROOT, ROOT / "cases", ROOT / "examples"))):
         for candidate in candidates(start):
             if candidate.is_file():
                 return candidate
-    raise WrongInput(f"no scene '{words}': give a scene file or a folder with one (./polynya list shows those at hand)")
+    raise WrongInput(f"no scene '{words}': give a scene file, a folder with one, or a name that ./polynya list shows")
 
 
 def candidates(start: Path) -> list[Path]:
     return [start, start.parent / f"{start.name}.toml", start / SCENE_FILE, start / f"{start.name}.toml"]
 
 
-def resolve(file: Path, level: str | None, settings: list[str]) -> dict:
-    """The resolved scene, all in SI. The resolver's own sentence and exit code come through when it refuses."""
+def resolve(file: Path, level: str | None, settings: list[str], explain: bool = False) -> dict:
+    """The resolved scene, all in SI; `explain` adds an estimate of size and cost.
+
+    The resolver's own sentence and exit code come through when it refuses."""
     program = build.program_folder() / "resolve_scene"
-    command = [str(program), str(file)]
+    command = [str(program), str(file)] + (["--explain"] if explain else [])
     if level:
         command += ["--level", level]
     for setting in settings:
@@ -37,23 +40,17 @@ def resolve(file: Path, level: str | None, settings: list[str]) -> dict:
         raise Failure(f"{program}: {error.strerror}") from None
     if result.returncode != 0:
         sentence = result.stderr.strip() or f"resolve_scene ended with exit code {result.returncode}"
-        raise (WrongInput if result.returncode == WRONG_INPUT else Failure)(strip_program(sentence))
+        raise (WrongInput if result.returncode == WRONG_INPUT else Failure)(sentence.removeprefix("resolve_scene: "))
     try:
         return json.loads(result.stdout)
     except ValueError as error:
         raise Failure(f"resolve_scene wrote something that is not JSON: {error}") from None
 
 
-def strip_program(sentence: str) -> str:
-    return sentence.removeprefix("resolve_scene: ")
-
-
 def participants(scene: dict) -> list[str]:
     """The solvers that a resolved scene needs, in the order in which they are started."""
-    effects = scene.get("effects") or {}
-    fluid_on = (effects.get("fluid") or {}).get("active", True)
-    parts = {"structure": scene.get("vehicle"), "ice": scene.get("ice"), "fluid": scene.get("fluid") if fluid_on else None}
-    names = [name for name, part in parts.items() if part]
+    named = scene.get("participants") or {}
+    names = [name for name in SOLVERS if name in named]
     if not names:
         raise WrongInput("the scene holds no vehicle, no ice and no fluid: nothing to run")
     return names

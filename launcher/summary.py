@@ -28,6 +28,7 @@ MEASURED = {
     "steps": ("window", "last"),
 }
 NEED_ICE = ("broken_ice_mass", "converted_elements", "particles")
+COUNTS = ("converted_elements", "particles", "cells", "elements", "steps")
 PASSAGE = tuple(definitions.Passage.__dataclass_fields__)
 
 
@@ -66,10 +67,13 @@ def usable(time: numpy.ndarray, speed: numpy.ndarray) -> numpy.ndarray:
 def measured(found: dict, series: Series | None, has_ice: bool) -> dict:
     """What the processes measured, else the series; None where there is nothing to measure."""
     values = {}
+    words = [word for word in (found.get("participants") or {}).values() if isinstance(word, dict)]
     for key, (column, which) in MEASURED.items():
-        value = found.get(key)
+        value = next((source[key] for source in (found, *words) if source.get(key) is not None), None)
         if value is None and series is not None and column and series.has(column):
             value = series.last(column) if which == "last" else largest(series, column)
+        if key in COUNTS and isinstance(value, float) and math.isfinite(value):
+            value = int(value)
         values[key] = None if key in NEED_ICE and not has_ice else value
     return values
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from launcher import DONE, ROOT
 
 TITLE = re.compile(r'^\s*title\s*=\s*"([^"]*)"', re.MULTILINE)
-LEVEL = re.compile(r"^\s*\[levels?\.([A-Za-z0-9_-]+)\]", re.MULTILINE)
+LEVEL = re.compile(r"^\s*\[level\.([A-Za-z0-9_-]+)[.\]]", re.MULTILINE)
 
 
 def run(_arguments: argparse.Namespace) -> int:
@@ -33,7 +33,7 @@ def command_word(file: Path) -> str:
 
 def describe(file: Path) -> str:
     text = file.read_text(encoding="utf-8")
-    levels = LEVEL.findall(text)
+    levels = list(dict.fromkeys(LEVEL.findall(text)))
     return TITLE.search(text)[1] + (f"  (levels: {', '.join(levels)})" if levels else "")
 
 

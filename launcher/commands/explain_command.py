@@ -1,0 +1,61 @@
+"""`polynya explain`: what a run would consist of and cost, without running it."""
+from __future__ import annotations
+
+import argparse
+import json
+
+from rich.console import Console
+from rich.table import Table
+
+from launcher import DONE, build, processes, report, units
+from launcher import scene as scenes
+
+
+def run(arguments: argparse.Namespace) -> int:
+    file = scenes.find(arguments.scene)
+    build.build(["resolve_scene"])
+    scene = scenes.resolve(file, arguments.level, arguments.settings, explain=True)
+    programs = processes.programs_for(scenes.participants(scene))
+    if arguments.json:
+        keys = ("name", "title", "level", "symmetry", "estimate", "effects")
+        print(json.dumps({**{key: scene.get(key) for key in keys}, "processes": programs}))
+    else:
+        print_explanation(scene, programs)
+    return DONE
+
+
+def print_explanation(scene: dict, programs: list[str]) -> None:
+    console = Console(highlight=False)
+    console.print(f"\n[bold]{scene.get('title')}[/]  [dim]{scene.get('level')}, {scene.get('symmetry')} model[/]")
+    console.print(f"[dim]processes[/]  {', '.join(programs)}\n")
+    estimate = scene.get("estimate") or {}
+    console.print(cost_table(estimate))
+    verdict = "[green]fits[/]" if estimate.get("fits") else "[bold red]does not fit[/]"
+    console.print(f"{verdict}: {estimate.get('reason')}. [dim]{estimate.get('note', '')}[/]\n")
+    effects = {name: {**effect, "state": "on" if effect["active"] else "off"}
+               for name, effect in (scene.get("effects") or {}).items()}
+    console.print(report.effects_table(effects))
+
+
+def steps_line(estimate: dict) -> str:
+    steps = [f"{name} {units.readable(estimate[key], 's')}" for name, key in (
+        ("ice", "ice_step"), ("vehicle", "vehicle_step"), ("fluid", "fluid_span")) if estimate.get(key)]
+    return ", ".join(steps)
+
+
+def cost_table(estimate: dict) -> Table:
+    """Size on the left, cost on the right; parts that the scene does not have are left out."""
+    size = [(label, units.count(estimate.get(key))) for label, key in (
+        ("fluid cells", "cells"), ("ice elements", "ice_elements"), ("vehicle elements", "vehicle_elements"),
+        ("windows", "windows"), ("field frames", "frames")) if estimate.get(key)]
+    cost = [("time", f"{units.duration(estimate.get('wall_time'))} on {estimate.get('cores')} cores"),
+            ("memory", f"{units.memory(estimate.get('memory'))} of {units.memory(estimate.get('available_memory'))}"),
+            ("disk", f"{units.memory(estimate.get('disk'))} of {units.memory(estimate.get('available_disk'))}"),
+            ("steps", steps_line(estimate))]
+    table = Table(box=None, show_header=False, padding=(0, 2, 0, 0))
+    for justify in ("right", "left"):
+        table.add_column(style="dim", no_wrap=True)
+        table.add_column(style="bold", no_wrap=justify == "right", justify=justify)
+    for i in range(max(len(size), len(cost))):
+        table.add_row(*(word for column in (size, cost) for word in (column[i] if i < len(column) else ("", ""))))
+    return table

@@ -1,0 +1,86 @@
+"""All pictures of a run: decides what there is to draw and when the cuts are taken."""
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy
+
+from launcher import draw_curves, draw_fields, draw_series, fields, style
+from launcher.run_folder import read_json
+from launcher.scene import participants
+from launcher.series import read_series
+from launcher.summary import series_path
+
+SHEET = 6  # moments on a sheet
+
+
+def draw_run(run: Path) -> tuple[list[Path], list[str]]:
+    """Draws into RUN/pictures. Returns the pictures and a sentence for each that could not be drawn."""
+    style.apply()
+    scene, summary = read_json(run / "scene.json"), read_json(run / "summary.json")
+    folder = run / "pictures"
+    folder.mkdir(exist_ok=True)
+    pictures: list[Path] = []
+    troubles: list[str] = []
+    for name, job in jobs(run, scene, summary, folder):
+        try:
+            picture = job()
+        except Exception as error:  # a picture less is no reason to lose the others, whatever went wrong
+            troubles.append(f"picture {name} could not be drawn: {type(error).__name__}: {error}")
+        else:
+            pictures += picture if isinstance(picture, list) else [picture] if picture else []
+    return pictures, troubles
+
+
+def jobs(run: Path, scene: dict, summary: dict, folder: Path) -> Iterator[tuple[str, Callable]]:
+    """Name and drawing function of each picture that may exist for this run."""
+    names = participants(scene)
+    series = read_series(series_path(run, names))
+    if series and series.has("vehicle_speed"):
+        yield "motion", lambda: draw_curves.draw_motion(scene, summary, series, folder / "motion.png")
+        yield "energies", lambda: draw_curves.draw_energies(scene, summary, series, folder / "energies.png")
+    elif series:
+        yield "series", lambda: draw_series.draw_columns(scene, series, folder / "series.png")
+    tube = read_series(run / "series" / "tube.csv")
+    if tube:
+        yield "tube", lambda: draw_series.draw_profiles(scene, tube, folder / "tube.png")
+    elif (run / "fields").is_dir():
+        yield "cuts", lambda: draw_cuts(run, scene, summary, folder)
+
+
+def draw_cuts(run: Path, scene: dict, summary: dict, folder: Path) -> list[Path]:
+    """The sheet of materials, the sheet of pressure, and the last moment large."""
+    times = frame_times(run)
+    if not len(times):
+        return []
+    tolerance = 0.51 * float(numpy.median(numpy.diff(times))) if len(times) > 1 else numpy.inf
+    sections = [draw_fields.load_section(run, time, tolerance) for time in choose(times, summary)]
+    view = draw_fields.make_view(scene, sections)
+    pictures = [draw_fields.draw_sheet(sections, view, folder / "cuts.png", "materials")]
+    if view.pressure:
+        pictures.append(draw_fields.draw_sheet(sections, view, folder / "pressure.png", "pressure"))
+    if len(sections) > 1:
+        whole = draw_fields.whole_view(view, sections[-1])
+        pictures.append(draw_fields.draw_sheet(sections[-1:], whole, folder / "last_cut.png", "materials"))
+    return pictures
+
+
+def frame_times(run: Path) -> numpy.ndarray:
+    names = ("vehicle", "ice", "fluid")
+    return numpy.unique([moment.time for name in names for moment in fields.moments(run, name)])
+
+
+def choose(times: numpy.ndarray, summary: dict) -> list[float]:
+    """Moments to show: first and last frame, contact, halfway through, shoulder clear; the rest evenly."""
+    contact, clear = summary.get("first_contact_time"), summary.get("shoulder_clear_time")
+    wishes = [times[0], times[-1]]
+    if contact is not None:
+        wishes += [contact]
+        wishes += [contact + clear, contact + clear / 2] if clear is not None else []
+    chosen = {int(numpy.argmin(abs(times - wish))) for wish in wishes}
+    while len(chosen) < min(SHEET, len(times)):
+        # The frame farthest from all that were chosen.
+        gaps = [min(abs(times[i] - times[j]) for j in chosen) for i in range(len(times))]
+        chosen.add(int(numpy.argmax(gaps)))
+    return [float(times[i]) for i in sorted(chosen)]
