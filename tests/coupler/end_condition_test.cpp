@@ -1,0 +1,41 @@
+#include "coupler/end_condition.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace polynya;
+
+namespace {
+
+scene::Scene thin_ice() {
+  scene::Scene scene;
+  scene.run.end = "ice_passed";
+  scene.run.end_time = 1e-3;
+  scene.vehicle.emplace();
+  scene.vehicle->diameter = 0.01;
+  scene.vehicle->length = 0.1;
+  scene.vehicle->head_length = 0.01;
+  scene.ice.emplace();
+  scene.ice->thickness = 0.01;
+  return scene;
+}
+
+}  // namespace
+
+TEST(EndCondition, IcePassedWhenTheCylinderIsADiameterAboveTheIce) {
+  const scene::Scene scene = thin_ice();
+  EXPECT_EQ(coupler::end_reason(scene, 0, 0.0299, 40), "");
+  EXPECT_EQ(coupler::end_reason(scene, 0, 0.0301, 40), "ice_passed");
+}
+
+TEST(EndCondition, ExitedWhenTheTailIsAboveTheIce) {
+  scene::Scene scene = thin_ice();
+  scene.run.end = "exited";
+  EXPECT_EQ(coupler::end_reason(scene, 0, 0.109, 40), "");
+  EXPECT_EQ(coupler::end_reason(scene, 0, 0.111, 40), "exited");
+}
+
+TEST(EndCondition, StoppedVehicleAndLatestTimeEndEveryRun) {
+  const scene::Scene scene = thin_ice();
+  EXPECT_EQ(coupler::end_reason(scene, 0, 0, -0.1), "vehicle_stopped");
+  EXPECT_EQ(coupler::end_reason(scene, 1e-3, 0, 40), "time");
+}
