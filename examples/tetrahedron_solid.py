@@ -53,11 +53,11 @@ def main(endpoint, run, name):
         "surface.ids": np.arange(4, dtype="i8"), "surface.masses": masses,
         "surface.triangles": np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], dtype="i4"),
         "surface.radius": np.zeros(4), "surface.volume": np.zeros(4)}
-    account = lambda: np.array([0.5 * np.sum(masses[:, None] * v**2)])
+    account = lambda: np.array([0.5 * masses @ np.sum(v**2, axis=1), masses.sum(), masses @ v[:, 2]])
 
     coupler = Coupler(endpoint, run, name)
     coupler.send("ready", {"account": account(), "positions": x, "velocities": v, **topology}, role="solid",
-                 body="vehicle", stable_step=STABLE_STEP, account=["kinetic_energy"])
+                 body="vehicle", stable_step=STABLE_STEP, account=["kinetic", "mass", "momentum_z"])
     begin, _ = coupler.receive("begin")
     time, step, window, finish = begin["time"], begin["step"], 0, False
     while not finish:
