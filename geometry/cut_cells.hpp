@@ -79,8 +79,8 @@ class Cutter {
 
   /// Deposits particles as cubes of their volume (positions [n][3] m, volumes [n] m^3) into the cells by exact overlap
   /// with the grid. A cell keeps at least `least_free` of what the solids leave; the excess moves to neighbours with
-  /// room, and what finds none is counted in squeezed_volume. Particles outside the grid are moved to its nearest
-  /// point.
+  /// room, and what finds none is counted in squeezed_volume. Particles with their centre outside the grid
+  /// are left out; cubes that stick out of it are moved inside.
   void deposit_debris(std::span<const double> positions, std::span<const double> volumes, CutCells& out,
                       double least_free = 0.1);
 

@@ -1,0 +1,100 @@
+#include "geometry/clip.hpp"
+
+namespace polynya::geometry {
+namespace {
+
+/// Sums over the edges of a piece that lie on one plane of the grid.
+struct PlaneCut {
+  double x_extent = 0, x_moment = 0, y_extent = 0, y_moment = 0;
+  bool any() const { return x_extent != 0 || y_extent != 0; }
+};
+
+/// The solid below a cut edge. On an x-plane a piece to its right, run round counter-clockwise about the outward
+/// normal, leaves the integral of -z dy below its edge (then the area vector -z dy of the piece and the faces of the
+/// cell close); on a y-plane +z dx. Seen from the other side of the plane the signs change.
+PlaneCut cut_along_planes(const Polygon& polygon, double floor, std::uint32_t x_plane, std::uint32_t y_plane) {
+  PlaneCut cut;
+  for (int c = 0; c < polygon.count; ++c) {
+    const Corner& p = polygon.corner[static_cast<std::size_t>(c)];
+    if ((p.planes & (x_plane | y_plane)) == 0) continue;
+    const Corner& q = polygon.corner[static_cast<std::size_t>(c + 1 == polygon.count ? 0 : c + 1)];
+    const double height = 0.5 * ((p.x[2] - floor) + (q.x[2] - floor));
+    if (p.planes & x_plane) {
+      const double extent = p.x[1] - q.x[1];
+      cut.x_extent += extent;
+      cut.x_moment += extent * height;
+    } else {
+      const double extent = q.x[0] - p.x[0];
+      cut.y_extent += extent;
+      cut.y_moment += extent * height;
+    }
+  }
+  return cut;
+}
+
+}  // namespace
+
+void TriangleClipper::record(const Polygon& polygon) {
+  const std::array<double, 3>& o = polygon.corner[0].x;
+  const std::int32_t top = lines_[2].intervals();
+  const double floor = lines_[2].line(std::min(cell_[2], top));
+  PieceRecord piece;
+  piece.i = cell_[0], piece.j = cell_[1], piece.k = cell_[2], piece.triangle = triangle_;
+  piece.area = {0, 0, 0};
+  double height_moment = 0, weight_sum = 0;
+  std::array<double, 3> centre{0, 0, 0}, e, f;
+  std::uint32_t planes = polygon.corner[0].planes | polygon.corner[1].planes;
+  for (std::size_t d = 0; d < 3; ++d) f[d] = polygon.corner[1].x[d] - o[d];
+  for (int c = 2; c < polygon.count; ++c) {
+    const Corner& corner = polygon.corner[static_cast<std::size_t>(c)];
+    planes |= corner.planes;
+    e = f;
+    for (std::size_t d = 0; d < 3; ++d) f[d] = corner.x[d] - o[d];
+    const std::array<double, 3> n{e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
+    const double share = n[dominant_];
+    for (std::size_t d = 0; d < 3; ++d) {
+      piece.area[d] += 0.5 * n[d];
+      centre[d] += share * (e[d] + f[d]);
+    }
+    weight_sum += share;
+    height_moment += 0.5 * n[2] * (e[2] + f[2]);
+  }
+  piece.height_moment = height_moment / 3 + piece.area[2] * (o[2] - floor);
+  const double third = weight_sum != 0 ? 1.0 / (3.0 * weight_sum) : 0.0;
+  const double pu = o[u_] + centre[u_] * third - origin_[u_], pv = o[v_] + centre[v_] * third - origin_[v_];
+  const double second = std::clamp(pu * to_second_[0] + pv * to_second_[1], 0.0, 1.0);
+  const double third_weight = std::clamp(pu * to_third_[0] + pv * to_third_[1], 0.0, 1.0 - second);
+  piece.weights = {1.0 - second - third_weight, second, third_weight};
+
+  if (planes & (on_lower_x | on_lower_y)) {
+    const PlaneCut cut = cut_along_planes(polygon, floor, on_lower_x, on_lower_y);
+    piece.x_extent = cut.x_extent, piece.x_moment = cut.x_moment;
+    piece.y_extent = cut.y_extent, piece.y_moment = cut.y_moment;
+  }
+  const bool has_area = piece.area[0] != 0 || piece.area[1] != 0 || piece.area[2] != 0;
+  if (has_area || piece.x_extent != 0 || piece.y_extent != 0) records_.push_back(piece);
+
+  // The last planes of the grid have no cell behind them that would count the cut.
+  const bool last_x = (planes & on_upper_x) && cell_[0] + 1 == lines_[0].intervals();
+  const bool last_y = (planes & on_upper_y) && cell_[1] + 1 == lines_[1].intervals();
+  if (!last_x && !last_y) return;
+  const PlaneCut cut = cut_along_planes(polygon, floor, on_upper_x, on_upper_y);
+  PieceRecord beyond = piece;
+  beyond.area = {0, 0, 0};
+  beyond.height_moment = 0;
+  beyond.x_extent = beyond.x_moment = beyond.y_extent = beyond.y_moment = 0;
+  if (last_x && cut.x_extent != 0) {
+    PieceRecord on_x = beyond;
+    on_x.i = cell_[0] + 1;
+    on_x.x_extent = -cut.x_extent, on_x.x_moment = -cut.x_moment;
+    records_.push_back(on_x);
+  }
+  if (last_y && cut.y_extent != 0) {
+    PieceRecord on_y = beyond;
+    on_y.j = cell_[1] + 1;
+    on_y.y_extent = -cut.y_extent, on_y.y_moment = -cut.y_moment;
+    records_.push_back(on_y);
+  }
+}
+
+}  // namespace polynya::geometry

@@ -1,0 +1,160 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/grid_lines.hpp"
+
+/// How one triangle is cut by the planes of the grid. Internal to the room.
+namespace polynya::geometry {
+
+/// A corner of a polygon with the interval ("slab") of the grid it is assigned to along each axis. Slabs, not
+/// coordinates, decide on which side of a plane a corner lies, and corners made on a shared edge are computed from the
+/// same numbers in the same order by both neighbours. So pieces of neighbouring triangles and cells always fit
+/// together.
+struct Corner {
+  std::array<double, 3> x;
+  std::array<std::int32_t, 3> slab;
+  std::uint32_t planes;  ///< planes that the edge from this corner to the next lies on
+};
+
+inline constexpr std::uint32_t on_lower_x = 1, on_upper_x = 2, on_lower_y = 4, on_upper_y = 8;
+
+struct Polygon {
+  int count = 0;
+  std::array<Corner, 24> corner;
+
+  void push(const Corner& c) { corner[static_cast<std::size_t>(count++)] = c; }
+};
+
+/// What one triangle leaves in one cell. k may be the number of cells along z: above the grid. i or j may be the number
+/// of cells: then the record carries only what lies on the last plane.
+struct PieceRecord {
+  std::int32_t i, j, k, triangle;
+  std::array<double, 3> area;         ///< m^2, outward
+  double height_moment;               ///< integral of (z - z_k) n_z dA
+  std::array<double, 3> weights;      ///< barycentric coordinates of the centroid
+  double x_extent = 0, x_moment = 0;  ///< of the cut along the cell's lower x-plane: integral of dy, of (z - z_k) dy
+  double y_extent = 0, y_moment = 0;  ///< likewise along the lower y-plane: integral of dx, of (z - z_k) dx
+};
+
+/// Cuts triangles and appends their records.
+class TriangleClipper {
+ public:
+  TriangleClipper(const std::array<LineLocator, 3>& lines, std::vector<PieceRecord>& records)
+      : lines_(lines), records_(records) {}
+
+  void cut(std::int32_t triangle, const Corner& a, const Corner& b, const Corner& c) {
+    Polygon whole;
+    whole.push(a);
+    whole.push(b);
+    whole.push(c);
+    triangle_ = triangle;
+    prepare_weights(a, b, c);
+    cut_along<0>(whole);
+  }
+
+ private:
+  static constexpr std::array<std::uint32_t, 3> lower_flag{on_lower_x, on_lower_y, 0};
+  static constexpr std::array<std::uint32_t, 3> upper_flag{on_upper_x, on_upper_y, 0};
+
+  template <std::size_t axis>
+  void cut_along(const Polygon& polygon) {
+    std::int32_t first = polygon.corner[0].slab[axis], last = first;
+    for (int c = 1; c < polygon.count; ++c) {
+      const std::int32_t slab = polygon.corner[static_cast<std::size_t>(c)].slab[axis];
+      first = std::min(first, slab);
+      last = std::max(last, slab);
+    }
+    if (first == last) return in_slab<axis>(polygon, first);
+    Polygon lower, upper, rest;
+    const Polygon* remaining = &polygon;
+    for (std::int32_t plane = first + 1; plane <= last; ++plane) {
+      split<axis>(*remaining, plane, lower, upper);
+      in_slab<axis>(lower, plane - 1);
+      std::swap(rest, upper);
+      remaining = &rest;
+    }
+    in_slab<axis>(rest, last);
+  }
+
+  template <std::size_t axis>
+  void in_slab(const Polygon& polygon, std::int32_t slab) {
+    const std::int32_t cells = lines_[axis].intervals();
+    if (slab < 0 || (slab >= cells && axis != 2)) return;  // beside or below the grid; above it still shades the column
+    cell_[axis] = slab;
+    if constexpr (axis < 2)
+      cut_along<axis + 1>(polygon);
+    else
+      record(polygon);
+  }
+
+  template <std::size_t axis>
+  Corner crossing(const Corner& below, const Corner& above, std::int32_t plane) const {
+    Corner r;
+    const double position = lines_[axis].line(plane), rise = above.x[axis] - below.x[axis];
+    // Both ends on the plane, assigned to different sides: any point of the edge serves, if both neighbours choose the
+    // same.
+    const double t = rise > 0 ? std::clamp((position - below.x[axis]) / rise, 0.0, 1.0) : 0.5;
+    for (std::size_t d = 0; d < 3; ++d) {
+      if (d == axis) continue;
+      r.x[d] = below.x[d] + t * (above.x[d] - below.x[d]);
+      r.slab[d] = below.slab[d];
+      if (d > axis && below.slab[d] != above.slab[d])
+        r.slab[d] = std::clamp(lines_[d].below(r.x[d]), std::min(below.slab[d], above.slab[d]),
+                               std::max(below.slab[d], above.slab[d]));
+    }
+    r.x[axis] = position;
+    return r;
+  }
+
+  template <std::size_t axis>
+  void split(const Polygon& polygon, std::int32_t plane, Polygon& lower, Polygon& upper) const {
+    lower.count = upper.count = 0;
+    for (int c = 0; c < polygon.count; ++c) {
+      const Corner& p = polygon.corner[static_cast<std::size_t>(c)];
+      const Corner& q = polygon.corner[static_cast<std::size_t>(c + 1 == polygon.count ? 0 : c + 1)];
+      const bool p_above = p.slab[axis] >= plane, q_above = q.slab[axis] >= plane;
+      (p_above ? upper : lower).push(p);
+      if (p_above == q_above) continue;
+      Corner r = crossing<axis>(p_above ? q : p, p_above ? p : q, plane);
+      r.slab[axis] = plane - 1;
+      r.planes = p_above ? p.planes : upper_flag[axis];
+      lower.push(r);
+      r.slab[axis] = plane;
+      r.planes = p_above ? lower_flag[axis] : p.planes;
+      upper.push(r);
+    }
+  }
+
+  void prepare_weights(const Corner& a, const Corner& b, const Corner& c) {
+    std::array<double, 3> e, f;
+    for (std::size_t d = 0; d < 3; ++d) {
+      origin_[d] = a.x[d];
+      e[d] = b.x[d] - a.x[d];
+      f[d] = c.x[d] - a.x[d];
+    }
+    const std::array<double, 3> n{e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
+    dominant_ = std::abs(n[0]) > std::abs(n[1]) ? 0 : 1;
+    if (std::abs(n[2]) > std::abs(n[dominant_])) dominant_ = 2;
+    u_ = (dominant_ + 1) % 3;
+    v_ = (dominant_ + 2) % 3;
+    const double inverse = n[dominant_] != 0 ? 1.0 / n[dominant_] : 0.0;
+    to_second_ = {f[v_] * inverse, -f[u_] * inverse};
+    to_third_ = {-e[v_] * inverse, e[u_] * inverse};
+  }
+
+  void record(const Polygon& polygon);
+
+  const std::array<LineLocator, 3>& lines_;
+  std::vector<PieceRecord>& records_;
+  std::int32_t triangle_ = 0;
+  std::array<std::int32_t, 3> cell_{};
+  std::array<double, 3> origin_{};
+  std::size_t dominant_ = 2, u_ = 0, v_ = 1;
+  std::array<double, 2> to_second_{}, to_third_{};
+};
+
+}  // namespace polynya::geometry

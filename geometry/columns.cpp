@@ -1,0 +1,208 @@
+#include "geometry/columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace polynya::geometry {
+namespace {
+
+constexpr double negligible = 1e-12;       // of a cell or face: rounding
+constexpr double negligible_wall = 1e-14;  // of the sum of a cell's face areas
+
+double snapped(double fraction) {
+  if (std::abs(fraction) < negligible) return 0.0;
+  if (std::abs(fraction - 1.0) < negligible) return 1.0;
+  return fraction;
+}
+
+/// One column: gathers the records, then walks down from the top, keeping what lies above.
+class ColumnWalk {
+ public:
+  ColumnWalk(const GridLines& grid, std::span<const BodySurface> bodies, std::span<ColumnRecords> records,
+             std::size_t column, ColumnChunk& chunk)
+      : bodies_(bodies), records_(records), column_(column), chunk_(chunk), z_(grid.lines[2]) {
+    const auto columns_x = static_cast<std::size_t>(grid.cells(0)) + 1;
+    i_ = static_cast<std::int32_t>(column % columns_x);
+    j_ = static_cast<std::int32_t>(column / columns_x);
+    top_ = static_cast<std::int32_t>(grid.cells(2));
+    dx_ = i_ < grid.cells(0) ? grid.width(0, i_) : 0.0;
+    dy_ = j_ < grid.cells(1) ? grid.width(1, j_) : 0.0;
+  }
+
+  void run() {
+    if (!gather()) return;
+    chunk_.shade.assign(bodies_.size(), {});
+    std::fill_n(chunk_.row_of_k.begin(), highest_ + 1, -1);
+    for (std::int32_t k = highest_; k >= 0; --k) {
+      if (k < top_) cell(k);
+      pass(k);
+      if (k <= lowest_ && shade_is_negligible()) break;
+    }
+    note_rows_of_records();
+    std::fill_n(chunk_.sums.begin(), static_cast<std::size_t>(highest_ + 1) * bodies_.size(), CellSum{});
+  }
+
+ private:
+  CellSum& sum(std::int32_t k, std::size_t body) {
+    return chunk_.sums[static_cast<std::size_t>(k) * bodies_.size() + body];
+  }
+
+  bool gather() {
+    lowest_ = std::numeric_limits<std::int32_t>::max();
+    highest_ = -1;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      for (std::int32_t r = records_[b].start[column_]; r < records_[b].start[column_ + 1]; ++r)
+        add(*records_[b].record[static_cast<std::size_t>(r)], b);
+    return highest_ >= 0;
+  }
+
+  void add(const PieceRecord& piece, std::size_t b) {
+    lowest_ = std::min(lowest_, piece.k);
+    highest_ = std::max(highest_, piece.k);
+    CellSum& s = sum(piece.k, b);
+    s.height_moment += piece.height_moment;
+    s.x_extent += piece.x_extent, s.x_moment += piece.x_moment;
+    s.y_extent += piece.y_extent, s.y_moment += piece.y_moment;
+    const double wall =
+        std::sqrt(piece.area[0] * piece.area[0] + piece.area[1] * piece.area[1] + piece.area[2] * piece.area[2]);
+    s.wall += wall;
+    const std::int32_t* vertex = bodies_[b].triangles.data() + 3 * static_cast<std::size_t>(piece.triangle);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double* velocity = bodies_[b].velocities.data() + 3 * static_cast<std::size_t>(vertex[c]);
+      for (std::size_t d = 0; d < 3; ++d) s.weighted_velocity[d] += wall * piece.weights[c] * velocity[d];
+    }
+    for (std::size_t d = 0; d < 3; ++d) s.area[d] += piece.area[d];
+  }
+
+  /// Volume, x-face and y-face of cell k: what lies inside it and under the shade of what lies above.
+  void cell(std::int32_t k) {
+    const double dz = z_[static_cast<std::size_t>(k) + 1] - z_[static_cast<std::size_t>(k)];
+    if (dy_ > 0)
+      face(0, k, dy_ * dz, [&](std::size_t b) { return sum(k, b).x_moment + dz * chunk_.shade[b].x_extent; });
+    if (dx_ > 0)
+      face(1, k, dx_ * dz, [&](std::size_t b) { return sum(k, b).y_moment + dz * chunk_.shade[b].y_extent; });
+    if (!(dx_ > 0 && dy_ > 0)) return;
+    const double volume = dx_ * dy_ * dz, least_wall = negligible_wall * (dx_ * dy_ + dy_ * dz + dz * dx_);
+    bool present = false;
+    double total = 0;
+    const std::size_t first = chunk_.cells.values.size();
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const CellSum& s = sum(k, b);
+      const double solid = volume * snapped((s.height_moment + dz * chunk_.shade[b].area) / volume);
+      const double per_wall = s.wall > 0 ? 1.0 / s.wall : 0.0;
+      present = present || solid != 0 || s.wall > least_wall;
+      total += solid;
+      chunk_.cells.values.insert(chunk_.cells.values.end(),
+                                 {solid, s.area[0], s.area[1], s.area[2], per_wall * s.weighted_velocity[0],
+                                  per_wall * s.weighted_velocity[1], per_wall * s.weighted_velocity[2]});
+    }
+    if (!present) return chunk_.cells.values.resize(first);
+    chunk_.row_of_k[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(chunk_.cells.size());
+    chunk_.cells.add(i_, j_, k);
+    chunk_.overlapping_cells += total > volume * (1.0 + 1e-9);
+  }
+
+  /// Takes the surface in slab k into the shade; then the shade is what crosses the z-plane k.
+  void pass(std::int32_t k) {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const CellSum& s = sum(k, b);
+      chunk_.shade[b].area += s.area[2];
+      chunk_.shade[b].x_extent += s.x_extent;
+      chunk_.shade[b].y_extent += s.y_extent;
+    }
+    if (dx_ > 0 && dy_ > 0) face(2, k, dx_ * dy_, [&](std::size_t b) { return chunk_.shade[b].area; });
+  }
+
+  template <class SolidArea>
+  void face(std::size_t axis, std::int32_t k, double area, SolidArea&& solid_area) {
+    Rows& rows = chunk_.faces[axis];
+    const std::size_t first = rows.values.size();
+    bool present = false;
+    double total = 0;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const double fraction = snapped(solid_area(b) / area);
+      present = present || fraction != 0;
+      total += fraction;
+      rows.values.push_back(fraction);
+    }
+    if (!present) return rows.values.resize(first);
+    rows.add(i_, j_, k);
+    const double excess = total - std::clamp(total, 0.0, 1.0);
+    if (std::abs(excess) > negligible)
+      chunk_.excesses.push_back({static_cast<std::int32_t>(axis), i_, j_, k, excess * area});
+  }
+
+  bool shade_is_negligible() const {
+    return std::ranges::all_of(chunk_.shade, [&](const ColumnShade& s) {
+      return std::abs(s.area) <= negligible * dx_ * dy_ && (dy_ == 0 || std::abs(s.x_extent) <= negligible * dy_) &&
+             (dx_ == 0 || std::abs(s.y_extent) <= negligible * dx_);
+    });
+  }
+
+  void note_rows_of_records() {
+    for (ColumnRecords& body : records_)
+      for (std::int32_t r = body.start[column_]; r < body.start[column_ + 1]; ++r) {
+        const PieceRecord& piece = *body.record[static_cast<std::size_t>(r)];
+        const bool area = piece.area[0] != 0 || piece.area[1] != 0 || piece.area[2] != 0;
+        const std::int32_t row = area && piece.k < top_ ? chunk_.row_of_k[static_cast<std::size_t>(piece.k)] : -1;
+        body.row[static_cast<std::size_t>(r)] = row;
+        chunk_.pieces += row >= 0;
+      }
+  }
+
+  std::span<const BodySurface> bodies_;
+  std::span<ColumnRecords> records_;
+  std::size_t column_;
+  ColumnChunk& chunk_;
+  const std::vector<double>& z_;
+  std::int32_t i_ = 0, j_ = 0, top_ = 0, lowest_ = 0, highest_ = -1;
+  double dx_ = 0, dy_ = 0;
+};
+
+}  // namespace
+
+void Rows::clear() {
+  i.clear();
+  j.clear();
+  k.clear();
+  values.clear();
+}
+
+void Rows::add(std::int32_t at_i, std::int32_t at_j, std::int32_t at_k) {
+  i.push_back(at_i);
+  j.push_back(at_j);
+  k.push_back(at_k);
+}
+
+void ColumnChunk::clear() {
+  cells.clear();
+  for (Rows& rows : faces) rows.clear();
+  excesses.clear();
+  pieces = 0;
+  overlapping_cells = 0;
+}
+
+void ColumnRecords::sort(const std::vector<std::vector<PieceRecord>>& chunks, std::size_t columns,
+                         std::int32_t columns_x) {
+  const auto column = [&](const PieceRecord& p) { return static_cast<std::size_t>(p.i + columns_x * p.j); };
+  start.assign(columns + 2, 0);
+  for (const auto& chunk : chunks)
+    for (const PieceRecord& piece : chunk) ++start[column(piece) + 2];
+  for (std::size_t c = 2; c < start.size(); ++c) start[c] += start[c - 1];
+  record.resize(static_cast<std::size_t>(start.back()));
+  row.resize(record.size());
+  for (const auto& chunk : chunks)  // start[c + 1] runs from the beginning of column c to its end
+    for (const PieceRecord& piece : chunk) record[static_cast<std::size_t>(start[column(piece) + 1]++)] = &piece;
+}
+
+void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies, std::span<ColumnRecords> records,
+                 std::size_t begin, std::size_t end, ColumnChunk& chunk) {
+  chunk.clear();
+  const auto slabs = static_cast<std::size_t>(grid.cells(2)) + 1;
+  chunk.row_of_k.resize(slabs);
+  if (chunk.sums.size() != slabs * bodies.size()) chunk.sums.assign(slabs * bodies.size(), CellSum{});
+  for (std::size_t column = begin; column < end; ++column) ColumnWalk(grid, bodies, records, column, chunk).run();
+}
+
+}  // namespace polynya::geometry

@@ -1,0 +1,72 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/clip.hpp"
+#include "geometry/cut_cells.hpp"
+
+/// From the records of clipped triangles to cells and faces, one column of cells after the other. Internal to the room.
+namespace polynya::geometry {
+
+/// Rows of output of a chunk of columns: where they belong and, per body, their values.
+struct Rows {
+  std::vector<std::int32_t> i, j, k;
+  std::vector<double> values;          ///< [rows][stride]
+  std::vector<std::int64_t> position;  ///< [rows], place in the sorted output
+
+  std::size_t size() const { return k.size(); }
+  void clear();
+  void add(std::int32_t at_i, std::int32_t at_j, std::int32_t at_k);
+};
+
+/// Values of a cell per body: volume, outward area vector, velocity.
+inline constexpr std::size_t cell_stride = 7;
+
+/// Solid area of a face (m^2, signed) by which the sum over bodies leaves [0, area of the face].
+struct FaceExcess {
+  std::int32_t axis, i, j, k;
+  double area;
+};
+
+/// What the bodies leave in the cells above the current one.
+struct ColumnShade {
+  double area = 0, x_extent = 0, y_extent = 0;
+};
+
+/// Sums of the records of one body in one cell.
+struct CellSum {
+  std::array<double, 3> area{}, weighted_velocity{};
+  double wall = 0, height_moment = 0;
+  double x_extent = 0, x_moment = 0, y_extent = 0, y_moment = 0;
+};
+
+/// The records of one body, sorted by column.
+struct ColumnRecords {
+  std::vector<std::int32_t> start;         ///< [columns + 1]
+  std::vector<const PieceRecord*> record;  ///< by column, in the order of the triangles
+  std::vector<std::int32_t> row;           ///< per record: row of its cell in its chunk, -1: no wall of any cell
+
+  void sort(const std::vector<std::vector<PieceRecord>>& chunks, std::size_t columns, std::int32_t columns_x);
+};
+
+/// One chunk of columns: its own output and scratch, so that results belong to chunks.
+struct ColumnChunk {
+  Rows cells;
+  std::array<Rows, 3> faces;
+  std::vector<FaceExcess> excesses;
+  std::size_t pieces = 0;
+  std::int64_t overlapping_cells = 0;
+  std::vector<CellSum> sums;           ///< scratch [cells along z + 1][bodies]
+  std::vector<ColumnShade> shade;      ///< scratch [bodies]
+  std::vector<std::int32_t> row_of_k;  ///< scratch [cells along z + 1]
+
+  void clear();
+};
+
+/// Sums up the columns [begin, end) (numbered i + (nx+1)*j) of all bodies into `chunk`.
+void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies, std::span<ColumnRecords> records,
+                 std::size_t begin, std::size_t end, ColumnChunk& chunk);
+
+}  // namespace polynya::geometry

@@ -1,0 +1,29 @@
+#pragma once
+#include "geometry/columns.hpp"
+#include "geometry/cut_cells.hpp"
+#include "geometry/debris.hpp"
+#include "geometry/placed_surface.hpp"
+
+namespace polynya::geometry {
+
+/// Everything a cutter keeps between cuts. Internal to the room.
+struct Cutter::Workspace {
+  GridLines grid;
+  std::array<LineLocator, 3> locators;
+  std::vector<PlacedSurface> surfaces;                        ///< [bodies]
+  std::vector<std::vector<std::vector<PieceRecord>>> pieces;  ///< [bodies][chunks of triangles]
+  std::vector<ColumnRecords> records;                         ///< [bodies]
+  std::vector<ColumnChunk> chunks;                            ///< [chunks of columns]
+  std::vector<FaceExcess> excesses;
+  std::vector<std::size_t> piece_start;  ///< [chunks of columns + 1]
+  std::vector<std::int64_t> next;        ///< scratch of sorting, per k
+  DebrisDeposit debris;
+
+  /// Columns of cells, and one more along x and y for the last planes.
+  std::size_t columns() const { return static_cast<std::size_t>((grid.cells(0) + 1) * (grid.cells(1) + 1)); }
+  void clip(std::size_t body, const BodySurface& surface);
+  void sum(std::span<const BodySurface> bodies);
+  void collect(CutCells& out);
+};
+
+}  // namespace polynya::geometry

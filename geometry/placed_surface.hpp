@@ -1,0 +1,42 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/clip.hpp"
+#include "geometry/cut_cells.hpp"
+
+namespace polynya::geometry {
+
+/// Edges of a surface that have not as many triangles on one side as on the other. Internal to the room.
+std::vector<std::array<std::int32_t, 2>> open_edges(std::span<const std::int32_t> triangles, std::size_t vertices);
+
+/// The vertices of one body with their slabs of the grid: every coincidence with a plane is decided here, once per
+/// vertex, so that all triangles agree about it. Internal to the room.
+class PlacedSurface {
+ public:
+  /// Throws GeometryError on bad indices or positions that are not finite.
+  void place(const BodySurface& surface, const std::array<LineLocator, 3>& lines);
+
+  const std::vector<Corner>& corners() const { return corners_; }
+  std::int64_t loose_edges() const { return loose_edges_; }
+
+ private:
+  struct Coincidence {
+    std::int32_t vertex, axis, plane;
+  };
+  void update_topology(const BodySurface& surface);
+  void place_vertices(const BodySurface& surface, const std::array<LineLocator, 3>& lines);
+  void settle_coincidences(const std::array<LineLocator, 3>& lines);
+  void attach_open_edges(const std::array<LineLocator, 3>& lines);
+
+  std::vector<Corner> corners_;
+  std::vector<std::int32_t> triangles_;  ///< copy: the topology below belongs to it
+  std::size_t vertices_ = 0;
+  std::vector<std::array<std::int32_t, 2>> open_edges_;
+  std::vector<std::vector<Coincidence>> coincidences_;  ///< per chunk of vertices
+  std::vector<std::array<double, 3>> normals_;
+  std::int64_t loose_edges_ = 0;
+};
+
+}  // namespace polynya::geometry
