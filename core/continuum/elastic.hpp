@@ -23,20 +23,15 @@ T tangent_bulk_modulus(const Elastic& law, const PointState<T>&) {
   return T(law.bulk_modulus);
 }
 
-/// The stress a yield surface allows (von Mises measure, Pa): none here.
-template <class T>
-T flow_stress(const Elastic&, const PointState<T>&) {
-  return T(1e300);
-}
-
 /// One step of the law. On entry the stress is the old one, already rotated, and state.relative_volume the new one.
-/// strain: D dt of the step.
+/// strain: D dt of the step. Returns the flow stress (von Mises measure, Pa): here without bound.
 template <class T>
-void advance_stress(const Elastic& law, PointState<T>& state, const SymmetricTensor<T>& strain, T /*dt*/) {
+T advance_stress(const Elastic& law, PointState<T>& state, const SymmetricTensor<T>& strain, T /*dt*/) {
   const T volumetric = strain[0] + strain[1] + strain[2];
   const T diagonal = (law.bulk_modulus - 2.0 / 3.0 * law.shear_modulus) * volumetric;
   for (int c = 0; c < 6; ++c) state.stress[c] += 2.0 * law.shear_modulus * strain[c];
   for (int c = 0; c < 3; ++c) state.stress[c] += diagonal;
+  return T(1e300);
 }
 
 }  // namespace polynya::continuum

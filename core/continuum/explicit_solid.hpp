@@ -77,8 +77,8 @@ struct ExplicitSolid {
   // Nodes.
   std::vector<double> positions;        ///< [n][3], m, at t(n)
   std::vector<double> velocities;       ///< [n][3], m/s, at t(n+1/2)
-  std::vector<double> accelerations;    ///< [n][3], m/s^2, at t(n), as of the last advance_velocities
-  std::vector<double> internal_force;   ///< [n][3], N, force of the elements ON the nodes (minus the divergence integral)
+  std::vector<double> internal_force;   ///< [n][3], N, force of the elements ON the nodes; advance_velocities
+                                        ///< adds the traction of non-reflecting boundaries to it
   std::vector<double> masses;           ///< [n], kg; 0 once every element of the node is removed
   std::vector<std::uint8_t> fixed;      ///< [n], bit 0, 1, 2: the velocity component x, y, z is held as it is
   std::vector<std::uint8_t> living_elements;  ///< [n], number of living elements at the node
@@ -89,13 +89,15 @@ struct ExplicitSolid {
 
   // Bookkeeping of the energy account: see advance_velocities.
   double kinetic_energy = 0, external_work = 0, boundary_flux = 0, removed_energy = 0, step_change = 0;
-  double pending_external_work = 0, pending_boundary_flux = 0, last_step = 0;
+  double pending_external_work = 0, pending_boundary_flux = 0, pending_step_change = 0;
 
   // Internal to the kernels. Lanes are elements of one pack, W = compute::pack_width.
   std::vector<std::int32_t> connectivity;    ///< [pack][8][W], 3 x node index; padding lanes repeat element 0
   std::vector<double> natural_hourglass;     ///< [pack][12][W], hourglass shape of the reference element
   std::vector<std::uint8_t> irregular;       ///< [pack], 1 if any lane is not a parallelepiped in the reference
   std::vector<double> hourglass_stiffness;   ///< [e], N/m, undamaged
+  std::vector<double> exposure;              ///< [e], 0 (amid others) to 1 (alone): see element_step
+  std::vector<std::uint8_t> idle;            ///< [pack], 1 if every lane is dead and exerts no force
   std::vector<double> element_force;         ///< [pack][24][W], N, on local node a, component i: row 3 a + i
   std::vector<std::int32_t> gather_start;    ///< [n+1]
   std::vector<std::int32_t> gather_slot;     ///< into element_force, component x; y and z follow at W and 2 W
@@ -132,7 +134,7 @@ EnergyAccount energies(const ExplicitSolid& solid);
 struct RemovedElement {
   double mass = 0;                         ///< kg
   std::array<double, 3> momentum{};        ///< kg m/s, of v(n+1/2)
-  double kinetic_energy = 0;               ///< J, of v(n+1/2); booked in the account as `removed`
+  double kinetic_energy = 0;               ///< J, of v(n+1/2); exactly what the account books as `removed`
 };
 
 /// Takes a living element and its mass out. Call between advance_velocities and advance_positions. Its stress, damage

@@ -106,15 +106,6 @@ T equivalent_stress(const SymmetricTensor<T>& s) {
                        3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])));
 }
 
-/// Strength of the point at its present pressure and damage and at the reference rate, Pa.
-template <class T>
-T flow_stress(const JohnsonHolmquist2& law, const PointState<T>& state) {
-  const T p = (-1.0 / 3.0) * (state.stress[0] + state.stress[1] + state.stress[2]);
-  const bool damaged = any(state.damage > T(0.0));
-  const auto y = strength(law, p, T(law.reference_strain_rate), damaged, false);
-  return y.intact - state.damage * (y.intact - y.fractured);
-}
-
 /// Return to the yield surface at one pressure and rate. excess: trial equivalent stress above the strength, Pa.
 /// The plastic strain satisfies  trial - 3 G dep = strength(D + dep/eps_f): linear in dep, so solved exactly. Where the
 /// strength falls faster than the elastic stress, no such state exists and the point fractures within the step.
@@ -145,9 +136,9 @@ T bulked_pressure(const JohnsonHolmquist2& law, const T& mu, const T& bulking_pr
 }
 
 /// One step of the law. On entry the stress is the old one, already rotated, and state.relative_volume the new one.
-/// strain: D dt of the step; dt 0 leaves deviator and damage alone.
+/// strain: D dt of the step. Returns the flow stress at the end of the step (von Mises measure, Pa).
 template <class T>
-void advance_stress(const JohnsonHolmquist2& law, PointState<T>& state, const SymmetricTensor<T>& strain, T dt) {
+T advance_stress(const JohnsonHolmquist2& law, PointState<T>& state, const SymmetricTensor<T>& strain, T dt) {
   const T zero = T(0.0), one = T(1.0);
   const T mean_strain = (strain[0] + strain[1] + strain[2]) * (1.0 / 3.0);
   const T mean_stress = (state.stress[0] + state.stress[1] + state.stress[2]) * (1.0 / 3.0);
@@ -188,6 +179,7 @@ void advance_stress(const JohnsonHolmquist2& law, PointState<T>& state, const Sy
   }
   state.stress = deviator;
   for (int c = 0; c < 3; ++c) state.stress[c] -= p;
+  return flow;
 }
 
 /// Equivalent stress at yield of intact material under uniaxial stress at a strain rate (1/s), Pa: the root of

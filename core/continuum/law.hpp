@@ -10,7 +10,7 @@
 namespace polynya::continuum {
 
 /// The law of a body: chosen once per body, so that kernels are compiled per law.
-/// A law is a struct of constants with density and shear_modulus and the functions advance_stress, flow_stress and
+/// A law is a struct of constants with density and shear_modulus and the functions advance_stress and
 /// tangent_bulk_modulus.
 using Law = std::variant<Elastic, JohnsonHolmquist2>;
 

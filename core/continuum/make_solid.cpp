@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "core/compute/pack.hpp"
+#include "core/continuum/exposure.hpp"
+#include "core/continuum/hexahedron_kernel.hpp"
+
+namespace polynya::continuum {
+namespace {
+
+constexpr std::size_t w = compute::pack_width;
+
+void check_mesh(const std::string& name, const HexMesh& mesh) {
+  if (mesh.element_count() == 0) throw std::invalid_argument(name + ": the mesh has no element");
+  for (std::int32_t n : mesh.elements)
+    if (n < 0 || static_cast<std::size_t>(n) >= mesh.node_count())
+      throw std::invalid_argument(name + ": an element names node " + std::to_string(n) + ", the mesh has " +
+                                  std::to_string(mesh.node_count()));
+}
+
+void size_arrays(ExplicitSolid& solid) {
+  const std::size_t nodes = solid.mesh.node_count(), elements = compute::padded(solid.element_count()),
+                    packs = elements / w;
+  solid.positions = solid.mesh.nodes;
+  solid.velocities.assign(3 * nodes, 0.0);
+  solid.internal_force.assign(3 * nodes, 0.0);
+  solid.masses.assign(nodes, 0.0);
+  solid.fixed.assign(nodes, 0);
+  solid.living_elements.assign(nodes, 0);
+  ElementState& element = solid.element;
+  for (auto* array : {&element.volume, &element.mass, &element.internal_energy, &element.hourglass_energy,
+                      &element.viscous_energy, &element.damage, &element.plastic_strain, &element.bulking_pressure,
+                      &element.alive, &solid.hourglass_stiffness, &solid.exposure})
+    array->assign(elements, 0.0);
+  for (auto& component : element.stress) component.assign(elements, 0.0);
+  element.step_limit.assign(elements, 1e300);
+  element.reference_volume.assign(elements, 1.0);
+  solid.natural_hourglass.assign(12 * elements, 0.0);
+  solid.element_force.assign(24 * elements, 0.0);
+  solid.irregular.assign(packs, 0);
+  solid.idle.assign(packs, 0);
+  std::fill_n(element.alive.begin(), solid.element_count(), 1.0);
+}
+
+void number_connections(ExplicitSolid& solid) {
+  const std::size_t elements = solid.element_count(), nodes = solid.node_count();
+  solid.connectivity.resize(8 * compute::padded(elements));
+  solid.gather_start.assign(nodes + 1, 0);
+  for (std::size_t e = 0; e < compute::padded(elements); ++e)
+    for (std::size_t a = 0; a < 8; ++a)
+      solid.connectivity[(e / w * 8 + a) * w + e % w] = 3 * solid.mesh.elements[8 * (e < elements ? e : 0) + a];
+  for (std::int32_t n : solid.mesh.elements) ++solid.gather_start[n + 1];
+  for (std::size_t n = 0; n < nodes; ++n) {
+    solid.living_elements[n] = static_cast<std::uint8_t>(solid.gather_start[n + 1]);
+    solid.gather_start[n + 1] += solid.gather_start[n];
+  }
+  solid.gather_slot.resize(8 * elements);
+  std::vector<std::int32_t> next(solid.gather_start.begin(), solid.gather_start.end() - 1);
+  for (std::size_t e = 0; e < elements; ++e)
+    for (std::size_t a = 0; a < 8; ++a)
+      solid.gather_slot[next[solid.mesh.elements[8 * e + a]]++] =
+          static_cast<std::int32_t>((e / w * 24 + 3 * a) * w + e % w);
+}
+
+/// Hourglass shape of the reference in the base of its half edges, and Flanagan & Belytschko's stiffness
+/// kappa/16 (K + 4 G/3) sum b.b / V, b = dV/dx of the nodes.
+void shape_hourglass(ExplicitSolid& solid, std::size_t e, const Modes<double>& c, const Geometry<double>& g,
+                     double modulus) {
+  double squares = 0;
+  for (int m = 1; m <= 6; ++m) squares += 8 * dot(g.gradient[m], g.gradient[m]);
+  solid.hourglass_stiffness[e] = solid.numerics.hourglass_stiffness / 16 * modulus * squares / g.volume;
+  const double triple = dot(c[1], cross(c[2], c[3]));
+  for (std::size_t m = 0; m < 4; ++m) {
+    const std::array<double, 3> natural{dot(c[m + 4], cross(c[2], c[3])) / triple,
+                                        dot(c[m + 4], cross(c[3], c[1])) / triple,
+                                        dot(c[m + 4], cross(c[1], c[2])) / triple};
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (std::abs(natural[j]) < 1e-11) continue;  // round-off of a parallelepiped
+      solid.natural_hourglass[(e / w * 12 + 3 * m + j) * w + e % w] = natural[j];
+      solid.irregular[e / w] = 1;
+    }
+  }
+}
+
+void set_elements(ExplicitSolid& solid) {
+  const double modulus = density(solid.law) * std::pow(longitudinal_wave_speed(solid.law), 2);
+  for (std::size_t e = 0; e < solid.element_count(); ++e) {
+    const auto c = modes_of(nodal_vectors<double>(solid, solid.mesh.nodes, {e / w, e % w}));
+    const auto g = geometry(c);
+    if (!(g.volume > 0)) {
+      const auto centre = element_centre(solid, e);
+      throw std::invalid_argument(solid.name + ": element " + std::to_string(e) + " at (" + std::to_string(centre[0]) +
+                                  ", " + std::to_string(centre[1]) + ", " + std::to_string(centre[2]) +
+                                  ") m has the volume " + std::to_string(g.volume) +
+                                  " m^3; its nodes must be in VTK's order");
+    }
+    solid.element.reference_volume[e] = g.volume;
+    shape_hourglass(solid, e, c, g, modulus);
+    update_exposure(solid, e);
+  }
+}
+
+}  // namespace
+
+ExplicitSolid make_solid(std::string name, HexMesh mesh, Law law, Numerics numerics) {
+  check_mesh(name, mesh);
+  ExplicitSolid solid;
+  solid.name = std::move(name);
+  solid.mesh = std::move(mesh);
+  solid.law = std::move(law);
+  solid.numerics = numerics;
+  size_arrays(solid);
+  number_connections(solid);
+  set_elements(solid);
+  // The reference volume by the very instructions that will compute the current one: at rest mu is exactly 0.
+  internal_forces(solid, 0.0);
+  std::copy_n(solid.element.volume.begin(), solid.element_count(), solid.element.reference_volume.begin());
+  for (auto& component : solid.element.stress) std::fill(component.begin(), component.end(), 0.0);
+  std::fill(solid.element.reference_volume.begin() + static_cast<std::ptrdiff_t>(solid.element_count()),
+            solid.element.reference_volume.end(), solid.element.reference_volume[0]);
+  for (std::size_t e = 0; e < solid.element_count(); ++e) {
+    solid.element.mass[e] = density(solid.law) * solid.element.reference_volume[e];
+    for (std::size_t a = 0; a < 8; ++a) solid.masses[solid.mesh.elements[8 * e + a]] += 0.125 * solid.element.mass[e];
+  }
+  internal_forces(solid, 0.0);
+  for (auto* array : {&solid.element.internal_energy, &solid.element.hourglass_energy, &solid.element.viscous_energy})
+    std::fill(array->begin(), array->end(), 0.0);
+  return solid;
+}
+
+}  // namespace polynya::continuum

@@ -1,0 +1,105 @@
+#include <Eigen/Dense>
+#include <cmath>
+#include <map>
+
+#include "core/continuum/boundary_traction.hpp"
+#include "core/continuum/explicit_solid.hpp"
+
+/// Lysmer & Kuhlemeyer 1969: a dashpot rho c per area is the impedance of the medium beyond, so plane waves that arrive
+/// along the normal leave without reflection.
+namespace polynya::continuum {
+namespace {
+
+Eigen::Matrix3d symmetric(const double* c) {
+  return (Eigen::Matrix3d() << c[0], c[3], c[5], c[3], c[1], c[4], c[5], c[4], c[2]).finished();
+}
+
+/// A quarter of the area of the boundary quadrilateral at each of its nodes, m^2.
+std::map<std::int32_t, double> areas_on_plane(const ExplicitSolid& solid, const Plane& plane) {
+  const auto neighbours = face_neighbours(solid.mesh);
+  const Eigen::Map<const Eigen::Vector3d> normal(plane.normal.data());
+  const auto node = [&](std::int32_t n) { return Eigen::Map<const Eigen::Vector3d>(&solid.mesh.nodes[3 * n]); };
+  std::map<std::int32_t, double> areas;
+  for (std::size_t e = 0; e < solid.element_count(); ++e) {
+    if (solid.element.alive[e] == 0) continue;
+    for (std::size_t f = 0; f < 6; ++f) {
+      if (neighbours[6 * e + f] >= 0) continue;
+      std::array<std::int32_t, 4> corner;
+      for (std::size_t k = 0; k < 4; ++k) corner[k] = solid.mesh.elements[8 * e + element_faces[f][k]];
+      const Eigen::Vector3d p = node(corner[2]) - node(corner[0]), q = node(corner[3]) - node(corner[1]);
+      const double size = p.norm();
+      bool on_plane = true;
+      for (std::int32_t n : corner)
+        on_plane = on_plane && std::abs(normal.dot(node(n)) - plane.offset) < 1e-6 * size;
+      if (!on_plane) continue;
+      const double area = 0.5 * p.cross(q).norm();
+      for (std::int32_t n : corner) areas[n] += 0.25 * area;
+    }
+  }
+  return areas;
+}
+
+}  // namespace
+
+void add_non_reflecting_boundary(ExplicitSolid& solid, const Plane& plane) {
+  const double rho = density(solid.law), normal_speed = longitudinal_wave_speed(solid.law),
+               shear_speed = shear_wave_speed(solid.law);
+  std::map<std::int32_t, std::size_t> known;
+  for (std::size_t k = 0; k < solid.damped.nodes.size(); ++k) known[solid.damped.nodes[k]] = k;
+  const int row[] = {0, 1, 2, 0, 1, 2}, column[] = {0, 1, 2, 1, 2, 0};
+  for (const auto& [node, area] : areas_on_plane(solid, plane)) {
+    const auto [entry, is_new] = known.emplace(node, solid.damped.nodes.size());
+    if (is_new) {
+      solid.damped.nodes.push_back(node);
+      solid.damped.damping.insert(solid.damped.damping.end(), 6, 0.0);
+      solid.damped.static_force.insert(solid.damped.static_force.end(), 3, 0.0);
+    }
+    for (int c = 0; c < 6; ++c) {
+      const int i = row[c], j = column[c];
+      if ((solid.fixed[node] >> i & 1) || (solid.fixed[node] >> j & 1)) continue;
+      solid.damped.damping[6 * entry->second + c] +=
+          rho * area * ((i == j ? shear_speed : 0.0) + (normal_speed - shear_speed) * plane.normal[i] * plane.normal[j]);
+    }
+  }
+}
+
+void hold_boundary_at_rest(ExplicitSolid& solid, std::span<const double> external_force) {
+  for (std::size_t k = 0; k < solid.damped.nodes.size(); ++k) {
+    const auto n = static_cast<std::size_t>(solid.damped.nodes[k]);
+    for (std::size_t i = 0; i < 3; ++i)
+      solid.damped.static_force[3 * k + i] = -(solid.internal_force[3 * n + i] + external_force[3 * n + i]);
+  }
+}
+
+void add_boundary_traction(ExplicitSolid& solid, std::span<const double> external_force, double dt_previous,
+                           double dt_next) {
+  const double step = 0.5 * (dt_previous + dt_next);
+  for (std::size_t k = 0; k < solid.damped.nodes.size(); ++k) {
+    const auto n = static_cast<std::size_t>(solid.damped.nodes[k]);
+    const double mass = solid.masses[n];
+    if (!(mass > 0)) continue;
+    const Eigen::Matrix3d damping = symmetric(&solid.damped.damping[6 * k]);
+    const Eigen::Map<const Eigen::Vector3d> old(&solid.velocities[3 * n]), external(&external_force[3 * n]),
+        held(&solid.damped.static_force[3 * k]);
+    Eigen::Map<Eigen::Vector3d> internal(&solid.internal_force[3 * n]);
+    Eigen::Vector3d rest = internal + external + held;
+    for (int i = 0; i < 3; ++i)
+      if (solid.fixed[n] >> i & 1) rest[i] = 0;  // its velocity stays
+    // (m + C step/2) v_new = (m - C step/2) v_old + step rest: the traction is taken with the mean velocity.
+    const Eigen::Matrix3d mass_matrix = mass * Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d now = (mass_matrix + 0.5 * step * damping)
+                                    .llt()
+                                    .solve(Eigen::Vector3d((mass_matrix - 0.5 * step * damping) * old + step * rest));
+    const Eigen::Vector3d traction = -0.5 * damping * (old + now);
+    solid.boundary_flux -= 0.5 * dt_previous * traction.dot(old);
+    solid.pending_boundary_flux -= 0.5 * dt_next * traction.dot(now);
+    for (int i = 0; i < 3; ++i) {
+      if (solid.fixed[n] >> i & 1) continue;
+      solid.external_work += 0.5 * dt_previous * held[i] * old[i];
+      solid.pending_external_work += 0.5 * dt_next * held[i] * now[i];
+      internal[i] += traction[i] + held[i];
+    }
+  }
+}
+
+}  // namespace polynya::continuum
