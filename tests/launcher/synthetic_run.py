@@ -32,7 +32,8 @@ SCENE = {
     "fluid": {"length": 0.2, "width": 0.2, "bottom": -0.12, "top": 0.039, "waterline": DRAUGHT, "water": "water",
               "air": "air", "atmospheric_pressure": 101325.0, "vapour_pressure": 2300.0, "start": "potential_flow",
               "outer_boundary": "non_reflecting"},
-    "contact": {"friction": 0.1, "stiffness_factor": 0.1}, "materials": {}, "participants": {},
+    "contact": {"friction": 0.1, "stiffness_factor": 0.1}, "materials": {},
+    "participants": {name: {"command": "", "launch": ""} for name in ("structure", "ice", "fluid")},
     "effects": {"fluid": {"requested": "auto", "active": True, "reason": "the scene has water."},
                 "cavitation": {"requested": "auto", "active": False, "reason": "no pressure falls below vapour."}},
 }
