@@ -27,9 +27,8 @@ std::string one_line(const std::string& drawn) {
 }
 
 void flatten(const toml::value& value, const std::string& path, const std::string& fixed_where, Document& document) {
-  const std::string where = !fixed_where.empty()
-                                ? fixed_where
-                                : document.file.string() + ":" + std::to_string(value.location().line());
+  const std::string where =
+      !fixed_where.empty() ? fixed_where : document.file.string() + ":" + std::to_string(value.location().line());
   if (value.is_table()) {
     if (!path.empty()) document.tables[path] = where;
     for (const auto& [key, member] : value.as_table())
@@ -106,7 +105,8 @@ Document read_setting(std::string_view setting) {
       continue;
     }
   }
-  throw SceneError(where + ": " + key + " is no dotted key; quote a part that holds a dot, e.g. materials.\"ice.paper\".density");
+  throw SceneError(where + ": " + key +
+                   " is no dotted key; quote a part that holds a dot, e.g. materials.\"ice.paper\".density");
 }
 
 void merge(Document& base, const Document& over) {

@@ -12,7 +12,9 @@ struct Decision {
   bool possible = true;
 };
 
-Decision impossible(std::string reason) { return {false, std::move(reason), false}; }
+Decision impossible(std::string reason) {
+  return {false, std::move(reason), false};
+}
 
 struct Rule {
   std::string name;
@@ -22,7 +24,9 @@ struct Rule {
 
 void nothing(Scene&) {}
 
-Decision not_available(const Scene&) { return impossible("not available in this version"); }
+Decision not_available(const Scene&) {
+  return impossible("not available in this version");
+}
 
 Decision conversion(const Scene& scene) {
   if (!scene.ice) return impossible("the scene has no ice");
@@ -48,7 +52,8 @@ Decision gravity(const Scene& scene) {
   if (scene.fluid && scene.fluid->tube) return impossible("a tube lies horizontal");
   if (scene.ice && scene.ice->bending)
     return {false, "a floating beam carries no weight between its rollers; only the rollers bend it"};
-  return {true, scene.fluid ? "weight acts on the solids and the water starts hydrostatic" : "weight acts on the solids"};
+  return {true,
+          scene.fluid ? "weight acts on the solids and the water starts hydrostatic" : "weight acts on the solids"};
 }
 
 Decision friction(const Scene& scene) {

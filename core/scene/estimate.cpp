@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <thread>
 
@@ -14,7 +15,7 @@
 namespace polynya::scene {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double lag_factor = 0.5;  // of areal mass / (density * sound speed): beyond it a lagged fluid load grows
 
@@ -96,7 +97,8 @@ double triangles(const Scene& scene, const Estimate& e) {
   double count = 0;
   if (scene.vehicle) {
     const double size = scene.resolution.vehicle_element;
-    count += 2 * pi * scene.vehicle->diameter * scene.vehicle->length / (size * size) * modelled_fraction(scene.symmetry);
+    count +=
+        2 * pi * scene.vehicle->diameter * scene.vehicle->length / (size * size) * modelled_fraction(scene.symmetry);
   }
   if (scene.ice) {
     const auto layers = static_cast<double>(ice_grid_lines(scene).z.size() - 1);
@@ -112,8 +114,9 @@ void add_steps(const Scene& scene, Estimate& e) {
   const double end = scene.run.end_time;
   if (e.fluid_span > 0) {
     // A span is a whole number of windows, at least one.
-    e.fluid_span = std::isfinite(window) ? std::max(1.0, std::floor(e.fluid_span / window)) * std::min(window, e.fluid_span)
-                                         : e.fluid_span;
+    e.fluid_span = std::isfinite(window)
+                       ? std::max(1.0, std::floor(e.fluid_span / window)) * std::min(window, e.fluid_span)
+                       : e.fluid_span;
     e.fluid_steps = std::ceil(end / e.fluid_span);
   }
   e.windows = std::ceil(end / std::min(window, e.fluid_span > 0 ? e.fluid_span : never));
@@ -128,7 +131,8 @@ void add_costs(const Scene& scene, const CostModel& c, Estimate& e) {
   const double cut = coupled && scene.fluid ? e.fluid_steps * triangles(scene, e) * c.cut_triangle : 0;
   const double work = e.fluid_steps * cells * c.fluid_cell_step + e.windows * elements * c.hexahedron_step + cut;
   e.wall_time = work / e.available.cores + (coupled ? e.windows * c.window : 0);
-  e.memory = cells * c.fluid_cell_memory + elements * c.hexahedron_memory + (processes + (coupled ? 1 : 0)) * c.process_memory;
+  e.memory =
+      cells * c.fluid_cell_memory + elements * c.hexahedron_memory + (processes + (coupled ? 1 : 0)) * c.process_memory;
   e.disk = e.frames * (cells * c.fluid_cell_frame + elements * c.hexahedron_frame) + e.windows * c.window_rows;
 }
 
@@ -141,9 +145,12 @@ std::string gigabytes(double bytes) {
 void judge(const CostModel& c, Estimate& e) {
   const bool memory = e.memory <= c.usable * e.available.memory, disk = e.disk <= c.usable * e.available.disk;
   e.fits = memory && disk;
-  if (e.fits) e.reason = "memory and disk suffice";
-  else if (!memory) e.reason = "needs " + gigabytes(e.memory) + " of memory, available " + gigabytes(e.available.memory);
-  else e.reason = "needs " + gigabytes(e.disk) + " of disk, available " + gigabytes(e.available.disk);
+  if (e.fits)
+    e.reason = "memory and disk suffice";
+  else if (!memory)
+    e.reason = "needs " + gigabytes(e.memory) + " of memory, available " + gigabytes(e.available.memory);
+  else
+    e.reason = "needs " + gigabytes(e.disk) + " of disk, available " + gigabytes(e.available.disk);
 }
 
 /// The limit of this process's control group, if one is set.
@@ -164,7 +171,8 @@ double sound_speed(const MaterialCard& card, double pressure) {
   if (card.law == "johnson_holmquist_2")
     return std::sqrt((card.value("bulk_modulus") + 4.0 / 3.0 * card.value("shear_modulus")) / density);
   if (card.law == "mie_grueneisen") return card.value("sound_speed");
-  if (card.law == "linear_polynomial" && card.value("c1") == 0) return std::sqrt((1 + card.value("c4")) * pressure / density);
+  if (card.law == "linear_polynomial" && card.value("c1") == 0)
+    return std::sqrt((1 + card.value("c4")) * pressure / density);
   if (card.law == "linear_polynomial") return std::sqrt(card.value("c1") / density);
   const double stiffening = card.law == "stiffened_gas" ? card.value("stiffening_pressure") : 0;
   return std::sqrt(card.value("ratio_of_specific_heats") * (pressure + stiffening) / density);

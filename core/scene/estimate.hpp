@@ -9,17 +9,17 @@ namespace polynya::scene {
 
 /// What one unit of work costs. Estimates, good to a factor of two; a run's report has the measured times.
 struct CostModel {
-  double fluid_cell_step = 600e-9;      ///< s of one core per cell and step
-  double hexahedron_step = 150e-9;      ///< s of one core per element and step
-  double window = 300e-6;               ///< s per coupling window: messages, contact search, ledger
-  double cut_triangle = 8e-3 / 5000;    ///< s of one core per triangle and span: overlap of surface and grid
-  double fluid_cell_memory = 600;       ///< bytes
-  double hexahedron_memory = 800;       ///< bytes
-  double process_memory = 60e6;         ///< bytes per process
-  double fluid_cell_frame = 150;        ///< bytes per cell in a field frame
-  double hexahedron_frame = 200;        ///< bytes per element in a field frame
-  double window_rows = 1500;            ///< bytes of all time series per window
-  double usable = 0.9;                  ///< fraction of the available memory and disk that a run may take
+  double fluid_cell_step = 600e-9;    ///< s of one core per cell and step
+  double hexahedron_step = 150e-9;    ///< s of one core per element and step
+  double window = 300e-6;             ///< s per coupling window: messages, contact search, ledger
+  double cut_triangle = 8e-3 / 5000;  ///< s of one core per triangle and span: overlap of surface and grid
+  double fluid_cell_memory = 600;     ///< bytes
+  double hexahedron_memory = 800;     ///< bytes
+  double process_memory = 60e6;       ///< bytes per process
+  double fluid_cell_frame = 150;      ///< bytes per cell in a field frame
+  double hexahedron_frame = 200;      ///< bytes per element in a field frame
+  double window_rows = 1500;          ///< bytes of all time series per window
+  double usable = 0.9;                ///< fraction of the available memory and disk that a run may take
 };
 
 struct Machine {

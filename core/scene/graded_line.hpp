@@ -23,13 +23,13 @@ struct GridLines {
   std::size_t nodes() const { return x.size() * y.size() * z.size(); }
 };
 
-/// Grid lines of the fluid domain: fine about the axis and from the vehicle's tail to the top, with nodes at both faces of
-/// the ice. A quarter starts at x = 0 and y = 0. A tube: uniform along x, one cell across. Throws std::invalid_argument
-/// if the scene has no fluid.
+/// Grid lines of the fluid domain: fine about the axis and from the vehicle's tail to the top, with nodes at both faces
+/// of the ice. A quarter starts at x = 0 and y = 0. A tube: uniform along x, one cell across. Throws
+/// std::invalid_argument if the scene has no fluid.
 GridLines fluid_grid_lines(const Scene& scene);
 
-/// Grid lines of the ice plate: fine about the axis, equal layers through the thickness. A beam in bending: nearly equal
-/// elements with nodes at the rollers. Throws std::invalid_argument if the scene has no ice.
+/// Grid lines of the ice plate: fine about the axis, equal layers through the thickness. A beam in bending: nearly
+/// equal elements with nodes at the rollers. Throws std::invalid_argument if the scene has no ice.
 GridLines ice_grid_lines(const Scene& scene);
 
 }  // namespace polynya::scene

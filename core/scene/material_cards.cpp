@@ -12,33 +12,43 @@ namespace {
 namespace dim = dimension;
 constexpr double any = -std::numeric_limits<double>::infinity();
 
-LawValue positive(std::string name, Dimension d = dim::none) { return {std::move(name), d, 0, true}; }
-LawValue not_negative(std::string name, Dimension d = dim::none) { return {std::move(name), d, 0, false}; }
-LawValue free_value(std::string name, Dimension d = dim::none) { return {std::move(name), d, any, false}; }
+LawValue positive(std::string name, Dimension d = dim::none) {
+  return {std::move(name), d, 0, true};
+}
+LawValue not_negative(std::string name, Dimension d = dim::none) {
+  return {std::move(name), d, 0, false};
+}
+LawValue free_value(std::string name, Dimension d = dim::none) {
+  return {std::move(name), d, any, false};
+}
 
 const std::map<std::string, std::vector<LawValue>>& laws() {
   static const std::map<std::string, std::vector<LawValue>> table{
-      {"elastic", {positive("density", dim::density), positive("youngs_modulus", dim::pressure), free_value("poisson_ratio")}},
+      {"elastic",
+       {positive("density", dim::density), positive("youngs_modulus", dim::pressure), free_value("poisson_ratio")}},
       {"johnson_holmquist_2",
-       {positive("density", dim::density), positive("shear_modulus", dim::pressure), positive("bulk_modulus", dim::pressure),
-        free_value("bulk_modulus_2", dim::pressure), free_value("bulk_modulus_3", dim::pressure),
-        positive("hugoniot_elastic_limit", dim::pressure), positive("pressure_at_hugoniot_elastic_limit", dim::pressure),
-        positive("intact_strength_constant"), positive("intact_strength_exponent"), not_negative("strain_rate_constant"),
+       {positive("density", dim::density), positive("shear_modulus", dim::pressure),
+        positive("bulk_modulus", dim::pressure), free_value("bulk_modulus_2", dim::pressure),
+        free_value("bulk_modulus_3", dim::pressure), positive("hugoniot_elastic_limit", dim::pressure),
+        positive("pressure_at_hugoniot_elastic_limit", dim::pressure), positive("intact_strength_constant"),
+        positive("intact_strength_exponent"), not_negative("strain_rate_constant"),
         not_negative("fractured_strength_constant"), positive("fractured_strength_exponent"),
-        positive("maximum_tensile_pressure", dim::pressure), not_negative("damage_constant"), not_negative("damage_exponent"),
-        not_negative("bulking_fraction"), positive("reference_strain_rate", dim::frequency),
+        positive("maximum_tensile_pressure", dim::pressure), not_negative("damage_constant"),
+        not_negative("damage_exponent"), not_negative("bulking_fraction"),
+        positive("reference_strain_rate", dim::frequency),
         LawValue{"maximum_fractured_strength", dim::none, 0, true, true}}},
       {"mie_grueneisen",
-       {positive("density", dim::density), positive("sound_speed", dim::speed), free_value("slope_1"), free_value("slope_2"),
-        free_value("slope_3"), not_negative("grueneisen"), free_value("grueneisen_slope"),
+       {positive("density", dim::density), positive("sound_speed", dim::speed), free_value("slope_1"),
+        free_value("slope_2"), free_value("slope_3"), not_negative("grueneisen"), free_value("grueneisen_slope"),
         not_negative("vapour_pressure", dim::pressure)}},
       {"linear_polynomial",
        {positive("density", dim::density), free_value("c0", dim::pressure), free_value("c1", dim::pressure),
-        free_value("c2", dim::pressure), free_value("c3", dim::pressure), free_value("c4"), free_value("c5"), free_value("c6"),
-        not_negative("initial_energy", dim::pressure)}},
+        free_value("c2", dim::pressure), free_value("c3", dim::pressure), free_value("c4"), free_value("c5"),
+        free_value("c6"), not_negative("initial_energy", dim::pressure)}},
       {"ideal_gas", {positive("density", dim::density), {"ratio_of_specific_heats", dim::none, 1, true}}},
       {"stiffened_gas",
-       {positive("density", dim::density), {"ratio_of_specific_heats", dim::none, 1, true},
+       {positive("density", dim::density),
+        {"ratio_of_specific_heats", dim::none, 1, true},
         not_negative("stiffening_pressure", dim::pressure)}},
   };
   return table;
@@ -64,7 +74,8 @@ double read_value(const Entry& entry, const LawValue& law_value, const std::stri
   }
   // A rate or modulus of zero needs no unit, and neither does any bare SI number.
   if (!quantity.bare && quantity.dimension != law_value.dimension)
-    fail("wrong dimension, found " + (quantity.dimension == Dimension{} ? "a plain number" : unit_name(quantity.dimension)));
+    fail("wrong dimension, found " +
+         (quantity.dimension == Dimension{} ? "a plain number" : unit_name(quantity.dimension)));
   if (!std::isfinite(quantity.value) || quantity.value < law_value.lower ||
       (law_value.lower_open && quantity.value == law_value.lower))
     fail("impossible value, allowed is " + std::string(law_value.lower_open ? "above " : "at least ") +
@@ -114,7 +125,9 @@ void check_value_keys(const Document& document, const std::string& law) {
 
 }  // namespace
 
-const std::vector<LawValue>& law_values(const std::string& law) { return laws().at(law); }
+const std::vector<LawValue>& law_values(const std::string& law) {
+  return laws().at(law);
+}
 
 const std::vector<std::string>& law_names() {
   static const std::vector<std::string> names = [] {
@@ -125,7 +138,9 @@ const std::vector<std::string>& law_names() {
   return names;
 }
 
-std::filesystem::path project_materials() { return POLYNYA_MATERIALS_DIRECTORY; }
+std::filesystem::path project_materials() {
+  return POLYNYA_MATERIALS_DIRECTORY;
+}
 
 MaterialCard load_card(const std::filesystem::path& file) {
   const Document document = read_document(file);
@@ -143,16 +158,19 @@ MaterialCard load_card(const std::filesystem::path& file) {
     const auto found = document.values.find(value.name + ".value");
     if (found == document.values.end()) {
       if (value.optional) continue;
-      throw SceneError(file.string() + ": " + value.name + ": missing, law " + card.law + " needs " + describe(value.dimension));
+      throw SceneError(file.string() + ": " + value.name + ": missing, law " + card.law + " needs " +
+                       describe(value.dimension));
     }
     card.values[value.name] = read_value(found->second, value, value.name);
     card.origin[value.name] = text_of(document, value.name + ".origin");
-    check_origin(card.origin[value.name], document.values.at(value.name + ".origin").where + ": " + value.name + ".origin");
+    check_origin(card.origin[value.name],
+                 document.values.at(value.name + ".origin").where + ": " + value.name + ".origin");
   }
   return card;
 }
 
-MaterialCard find_card(const std::string& name, const std::vector<std::filesystem::path>& folders, const std::string& asked) {
+MaterialCard find_card(const std::string& name, const std::vector<std::filesystem::path>& folders,
+                       const std::string& asked) {
   std::vector<std::string> names;
   for (const auto& folder : folders) {
     if (!std::filesystem::is_directory(folder)) continue;
@@ -164,13 +182,15 @@ MaterialCard find_card(const std::string& name, const std::vector<std::filesyste
   std::string list;
   for (const auto& known : names) list += (list.empty() ? "" : ", ") + known;
   const auto near = nearest(name, names);
-  throw SceneError(asked + ": no card of that name; " + (near.empty() ? "" : "did you mean '" + near + "'? ") + "known: " + list);
+  throw SceneError(asked + ": no card of that name; " + (near.empty() ? "" : "did you mean '" + near + "'? ") +
+                   "known: " + list);
 }
 
 void override_values(MaterialCard& card, const Document& values) {
   for (const auto& [key, entry] : values.values) {
     const auto& known = law_values(card.law);
-    const auto rule = std::find_if(known.begin(), known.end(), [&](const LawValue& value) { return value.name == key; });
+    const auto rule =
+        std::find_if(known.begin(), known.end(), [&](const LawValue& value) { return value.name == key; });
     if (rule == known.end()) fail_unknown_value(entry.where, key, card.law);
     card.values[key] = read_value(entry, *rule, "materials." + card.name + "." + key);
     card.origin[key] = "assumed: given by the scene (" + entry.where + ")";

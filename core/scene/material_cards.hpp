@@ -30,7 +30,8 @@ MaterialCard load_card(const std::filesystem::path& file);
 
 /// Reads card `name` from the first folder that has it. `asked` ("file:line: vehicle.material") starts the message
 /// of the SceneError if none has.
-MaterialCard find_card(const std::string& name, const std::vector<std::filesystem::path>& folders, const std::string& asked);
+MaterialCard find_card(const std::string& name, const std::vector<std::filesystem::path>& folders,
+                       const std::string& asked);
 
 /// Replaces values of a card by those that a scene gives (keys are the names of values). Throws SceneError.
 void override_values(MaterialCard& card, const Document& values);

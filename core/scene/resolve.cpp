@@ -88,14 +88,15 @@ void check_sections(const Document& document, const Values& values) {
   const auto& file = document.file.string();
   if (values.has("tube")) {
     for (const std::string other : {"vehicle", "ice", "water", "air", "fluid"})
-      if (values.has(other)) throw SceneError(document.tables.at(other) + ": [" + other + "] cannot stand beside [tube]; remove one");
+      if (values.has(other))
+        throw SceneError(document.tables.at(other) + ": [" + other + "] cannot stand beside [tube]; remove one");
     for (const std::string side : {"tube.left", "tube.right"})
       if (!values.has(side)) throw SceneError(document.tables.at("tube") + ": [" + side + "] is missing");
     return;
   }
   if (values.has("water") != values.has("air"))
-    throw SceneError(document.tables.at(values.has("water") ? "water" : "air") + ": [water] and [air] come together; add [" +
-                     (values.has("water") ? "air" : "water") + "]");
+    throw SceneError(document.tables.at(values.has("water") ? "water" : "air") +
+                     ": [water] and [air] come together; add [" + (values.has("water") ? "air" : "water") + "]");
   if (values.has("fluid") && !values.has("water"))
     throw SceneError(document.tables.at("fluid") + ": [fluid] needs [water] and [air]");
   if (!values.has("vehicle") && !values.has("ice") && !values.has("water"))

@@ -7,10 +7,10 @@
 namespace polynya::scene {
 namespace {
 
-constexpr double reserve = 1.5;            // of the expected duration
-constexpr double plug_factor = 2.6;        // thicknesses travelled until the broken plug lets go of the head
-constexpr double frames = 30;              // of a run, by default
-constexpr int open_water_diameters = 20;   // lateral extent without ice
+constexpr double reserve = 1.5;           // of the expected duration
+constexpr double plug_factor = 2.6;       // thicknesses travelled until the broken plug lets go of the head
+constexpr double frames = 30;             // of a run, by default
+constexpr int open_water_diameters = 20;  // lateral extent without ice
 constexpr int cells_above_nose = 2;
 constexpr int cells_below_tail = 6;
 constexpr double largest_cells_across = 20000;  // per direction: more is a slip of units
@@ -31,13 +31,16 @@ double expected_way(const Scene& scene, double surface, const std::string& end) 
 double end_time(const Values& values, const Scene& scene, double surface) {
   if (const auto given = values.given("run.end_time")) return *given;
   if (!scene.vehicle || scene.vehicle->speed == 0 || scene.run.end == "time")
-    values.fail("run.end_time", "missing; must be a time such as \"1.5 ms\" (it is only worked out for a moving vehicle and an end other than time)");
+    values.fail("run.end_time",
+                "missing; must be a time such as \"1.5 ms\" (it is only worked out for a moving vehicle and an end "
+                "other than time)");
   return reserve * expected_way(scene, surface, scene.run.end) / scene.vehicle->speed;
 }
 
 void check_end(const Values& values, const Scene& scene) {
   const auto& end = scene.run.end;
-  if (end == "ice_passed" && !(scene.vehicle && scene.ice)) values.fail("run.end", "needs [vehicle] and [ice]; allowed here is time");
+  if (end == "ice_passed" && !(scene.vehicle && scene.ice))
+    values.fail("run.end", "needs [vehicle] and [ice]; allowed here is time");
   if (end == "exited" && !scene.vehicle) values.fail("run.end", "needs [vehicle]; allowed here is time");
 }
 
@@ -91,15 +94,16 @@ void read_resolution(const Values& values, Scene& scene) {
 
 Tube read_tube(const Values& values) {
   const auto state = [&](const std::string& path) {
-    return TubeState{values.text(path + ".material"), values.number(path + ".density", 0), values.number(path + ".velocity"),
-                     values.number(path + ".pressure", 0)};
+    return TubeState{values.text(path + ".material"), values.number(path + ".density", 0),
+                     values.number(path + ".velocity"), values.number(path + ".pressure", 0)};
   };
   Tube tube;
   tube.length = values.number("tube.length", 0);
   tube.diaphragm = values.number("tube.diaphragm", 0.5 * tube.length);
   tube.left = state("tube.left"), tube.right = state("tube.right");
   if (tube.diaphragm >= tube.length) values.fail("tube.diaphragm", "must be below tube.length");
-  if (tube.length / values.number("resolution.cell") > 1e6) values.fail("tube.length", "more than a million cells; enlarge resolution.cell");
+  if (tube.length / values.number("resolution.cell") > 1e6)
+    values.fail("tube.length", "more than a million cells; enlarge resolution.cell");
   return tube;
 }
 
@@ -124,9 +128,12 @@ void read_fluid(const Values& values, Scene& scene) {
   }
   if (scene.ice && (f.length < scene.ice->length * (1 - 1e-12) || f.width < scene.ice->width * (1 - 1e-12)))
     values.fail(f.length < scene.ice->length ? "fluid.length" : "fluid.width", "must not be below that of the ice");
-  if (v && 2 * v->diameter > std::min(f.length, f.width)) values.fail("fluid.length", "must be at least two vehicle diameters");
-  if (f.waterline <= f.bottom || f.waterline >= f.top) values.fail("water.surface", "must lie between bottom and top of the fluid");
-  if ((f.top - f.bottom) / cell > largest_cells_across) values.fail("resolution.cell", "gives more than 20000 cells along z");
+  if (v && 2 * v->diameter > std::min(f.length, f.width))
+    values.fail("fluid.length", "must be at least two vehicle diameters");
+  if (f.waterline <= f.bottom || f.waterline >= f.top)
+    values.fail("water.surface", "must lie between bottom and top of the fluid");
+  if ((f.top - f.bottom) / cell > largest_cells_across)
+    values.fail("resolution.cell", "gives more than 20000 cells along z");
 }
 
 }  // namespace polynya::scene

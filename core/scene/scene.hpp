@@ -15,14 +15,14 @@ enum class Symmetry { full, half, quarter };  ///< half: y >= 0 is modelled; qua
 struct Effect {
   std::string requested;  ///< "auto", "on" or "off"
   bool active = false;
-  std::string reason;     ///< why it is on or off, a whole sentence
+  std::string reason;  ///< why it is on or off, a whole sentence
 };
 
 /// A constitutive law or equation of state with its constants (SI) and where each came from.
 struct MaterialCard {
-  std::string name;                           ///< "ice.paper"
-  std::string law;  ///< "elastic", "johnson_holmquist_2", "mie_grueneisen", "linear_polynomial", "ideal_gas",
-                    ///< "stiffened_gas"; docs/scene.md lists the values of each
+  std::string name;  ///< "ice.paper"
+  std::string law;   ///< "elastic", "johnson_holmquist_2", "mie_grueneisen", "linear_polynomial", "ideal_gas",
+                     ///< "stiffened_gas"; docs/scene.md lists the values of each
   std::map<std::string, double> values;       ///< "density", "shear_modulus", ... SI
   std::map<std::string, std::string> origin;  ///< per value: "literature: ...", "calibrated: ...", "assumed: ..."
 
@@ -53,9 +53,9 @@ struct Resolution {
 };
 
 struct Vehicle {
-  std::string head;           ///< "ogive", "hemisphere", "ellipsoid"
+  std::string head;                                  ///< "ogive", "hemisphere", "ellipsoid"
   double head_length = 0, diameter = 0, length = 0;  ///< m
-  std::string interior;       ///< "solid" or "hollow"
+  std::string interior;                              ///< "solid" or "hollow"
   double wall_thickness = 0;  ///< m; 0: from mass (hollow). Never both 0 when hollow, never both given.
   double mass = 0;            ///< kg of the full vehicle; 0: from the material's density (solid) or the wall (hollow).
                               ///< A solid vehicle with a mass gets the density mass / volume.
@@ -93,20 +93,20 @@ struct Tube {
 };
 
 struct Fluid {
-  double length = 0, width = 0;         ///< m, lateral extent of the full domain (x, y)
-  double bottom = 0, top = 0;           ///< m, z
-  double waterline = 0;                 ///< m, z of the undisturbed free surface
-  std::string water, air;               ///< keys into Scene::materials
-  double atmospheric_pressure = 0;      ///< Pa
-  double vapour_pressure = 0;           ///< Pa, absolute; lower bound of the pressure of water
-  std::string start;                    ///< "potential_flow" or "impulsive"
-  std::string outer_boundary;           ///< "non_reflecting" or "wall"
-  std::optional<Tube> tube;             ///< then the fluid is a one-dimensional tube and nothing else above holds
+  double length = 0, width = 0;     ///< m, lateral extent of the full domain (x, y)
+  double bottom = 0, top = 0;       ///< m, z
+  double waterline = 0;             ///< m, z of the undisturbed free surface
+  std::string water, air;           ///< keys into Scene::materials
+  double atmospheric_pressure = 0;  ///< Pa
+  double vapour_pressure = 0;       ///< Pa, absolute; lower bound of the pressure of water
+  std::string start;                ///< "potential_flow" or "impulsive"
+  std::string outer_boundary;       ///< "non_reflecting" or "wall"
+  std::optional<Tube> tube;         ///< then the fluid is a one-dimensional tube and nothing else above holds
 };
 
 struct Contact {
-  double friction = 0;        ///< Coulomb coefficient
-  double stiffness_factor = 0;///< of the bound m / dt_window^2
+  double friction = 0;          ///< Coulomb coefficient
+  double stiffness_factor = 0;  ///< of the bound m / dt_window^2
 };
 
 struct ParticipantCommand {

@@ -11,7 +11,7 @@ using nlohmann::json;
 
 /// Visits every member of a part with its key; used for both directions so that they cannot disagree.
 template <class Part, class Visit>
-  requires std::is_same_v<std::remove_const_t<Part>, Run>
+requires std::is_same_v<std::remove_const_t<Part>, Run>
 void members(Part& p, Visit&& visit) {
   visit("end", p.end), visit("end_time", p.end_time), visit("frame_interval", p.frame_interval);
   visit("step_factor", p.step_factor), visit("fluid_step_factor", p.fluid_step_factor);
@@ -19,7 +19,7 @@ void members(Part& p, Visit&& visit) {
 }
 
 template <class Part, class Visit>
-  requires std::is_same_v<std::remove_const_t<Part>, Resolution>
+requires std::is_same_v<std::remove_const_t<Part>, Resolution>
 void members(Part& p, Visit&& visit) {
   visit("cell", p.cell), visit("ice_element", p.ice_element), visit("vehicle_element", p.vehicle_element);
   visit("fine_radius", p.fine_radius), visit("ice_fine_radius", p.ice_fine_radius), visit("growth", p.growth);
@@ -27,7 +27,7 @@ void members(Part& p, Visit&& visit) {
 }
 
 template <class Part, class Visit>
-  requires std::is_same_v<std::remove_const_t<Part>, Vehicle>
+requires std::is_same_v<std::remove_const_t<Part>, Vehicle>
 void members(Part& p, Visit&& visit) {
   visit("head", p.head), visit("head_length", p.head_length), visit("diameter", p.diameter);
   visit("length", p.length), visit("interior", p.interior), visit("wall_thickness", p.wall_thickness);
@@ -36,14 +36,14 @@ void members(Part& p, Visit&& visit) {
 }
 
 template <class Part, class Visit>
-  requires std::is_same_v<std::remove_const_t<Part>, Bending>
+requires std::is_same_v<std::remove_const_t<Part>, Bending>
 void members(Part& p, Visit&& visit) {
   visit("support_span", p.support_span), visit("load_span", p.load_span), visit("speed", p.speed);
   visit("ramp_time", p.ramp_time);
 }
 
 template <class Part, class Visit>
-  requires std::is_same_v<std::remove_const_t<Part>, Ice>
+requires std::is_same_v<std::remove_const_t<Part>, Ice>
 void members(Part& p, Visit&& visit) {
   visit("length", p.length), visit("width", p.width), visit("thickness", p.thickness);
   visit("lower_face", p.lower_face), visit("material", p.material), visit("critical_strain", p.critical_strain);
@@ -51,20 +51,20 @@ void members(Part& p, Visit&& visit) {
 }
 
 template <class Part, class Visit>
-  requires std::is_same_v<std::remove_const_t<Part>, TubeState>
+requires std::is_same_v<std::remove_const_t<Part>, TubeState>
 void members(Part& p, Visit&& visit) {
   visit("material", p.material), visit("density", p.density), visit("velocity", p.velocity);
   visit("pressure", p.pressure);
 }
 
 template <class Part, class Visit>
-  requires std::is_same_v<std::remove_const_t<Part>, Tube>
+requires std::is_same_v<std::remove_const_t<Part>, Tube>
 void members(Part& p, Visit&& visit) {
   visit("length", p.length), visit("diaphragm", p.diaphragm), visit("left", p.left), visit("right", p.right);
 }
 
 template <class Part, class Visit>
-  requires std::is_same_v<std::remove_const_t<Part>, Fluid>
+requires std::is_same_v<std::remove_const_t<Part>, Fluid>
 void members(Part& p, Visit&& visit) {
   visit("length", p.length), visit("width", p.width), visit("bottom", p.bottom), visit("top", p.top);
   visit("waterline", p.waterline), visit("water", p.water), visit("air", p.air);
@@ -73,31 +73,31 @@ void members(Part& p, Visit&& visit) {
 }
 
 template <class Part, class Visit>
-  requires std::is_same_v<std::remove_const_t<Part>, Contact>
+requires std::is_same_v<std::remove_const_t<Part>, Contact>
 void members(Part& p, Visit&& visit) {
   visit("friction", p.friction), visit("stiffness_factor", p.stiffness_factor);
 }
 
 template <class Part, class Visit>
-  requires std::is_same_v<std::remove_const_t<Part>, MaterialCard>
+requires std::is_same_v<std::remove_const_t<Part>, MaterialCard>
 void members(Part& p, Visit&& visit) {
   visit("law", p.law), visit("values", p.values), visit("origin", p.origin);
 }
 
 template <class Part, class Visit>
-  requires std::is_same_v<std::remove_const_t<Part>, Effect>
+requires std::is_same_v<std::remove_const_t<Part>, Effect>
 void members(Part& p, Visit&& visit) {
   visit("requested", p.requested), visit("active", p.active), visit("reason", p.reason);
 }
 
 template <class Part, class Visit>
-  requires std::is_same_v<std::remove_const_t<Part>, ParticipantCommand>
+requires std::is_same_v<std::remove_const_t<Part>, ParticipantCommand>
 void members(Part& p, Visit&& visit) {
   visit("command", p.command), visit("launch", p.launch);
 }
 
 template <class Part, class Visit>
-  requires std::is_same_v<std::remove_const_t<Part>, Scene>
+requires std::is_same_v<std::remove_const_t<Part>, Scene>
 void members(Part& p, Visit&& visit) {
   visit("title", p.title), visit("name", p.name), visit("level", p.level), visit("symmetry", p.symmetry);
   visit("run", p.run), visit("resolution", p.resolution), visit("vehicle", p.vehicle), visit("ice", p.ice);
@@ -179,7 +179,9 @@ struct Codec<std::map<std::string, T>> {
 
 }  // namespace
 
-json to_json(const Scene& scene) { return Codec<Scene>::write(scene); }
+json to_json(const Scene& scene) {
+  return Codec<Scene>::write(scene);
+}
 
 Scene from_json(const json& resolved) {
   Scene scene;
@@ -204,9 +206,13 @@ Scene load_resolved_scene(const std::string& path) {
   }
 }
 
-bool Scene::effect(const std::string& name) const { return effects.at(name).active; }
+bool Scene::effect(const std::string& name) const {
+  return effects.at(name).active;
+}
 
-const MaterialCard& Scene::material(const std::string& name) const { return materials.at(name); }
+const MaterialCard& Scene::material(const std::string& name) const {
+  return materials.at(name);
+}
 
 double MaterialCard::value(const std::string& key) const {
   const auto found = values.find(key);

@@ -12,8 +12,15 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 KeyRule number(std::string path, Dimension d, std::string fallback, std::string meaning, double lower = -infinity,
                double upper = infinity) {
-  return {.path = std::move(path), .kind = Kind::quantity, .dimension = d, .fallback = std::move(fallback),
-          .meaning = std::move(meaning), .lower = lower, .upper = upper, .lower_open = false, .choices = {}};
+  return {.path = std::move(path),
+          .kind = Kind::quantity,
+          .dimension = d,
+          .fallback = std::move(fallback),
+          .meaning = std::move(meaning),
+          .lower = lower,
+          .upper = upper,
+          .lower_open = false,
+          .choices = {}};
 }
 
 /// A number above zero.
@@ -74,14 +81,16 @@ std::vector<KeyRule> general_rules() {
 
 std::vector<KeyRule> solid_rules() {
   return {
-      choice("vehicle.head", {"ogive", "hemisphere", "ellipsoid"}, "ogive", "profile of the head, a body of revolution"),
+      choice("vehicle.head", {"ogive", "hemisphere", "ellipsoid"}, "ogive",
+             "profile of the head, a body of revolution"),
       positive("vehicle.head_length", dim::length, "auto", "auto: the diameter (a hemisphere: half of it)"),
       positive("vehicle.diameter", dim::length, "10 mm", "of the cylinder"),
       positive("vehicle.length", dim::length, "100 mm", "head included"),
       choice("vehicle.interior", {"hollow", "solid"}, "hollow", "a hollow hull is closed and dry"),
       number("vehicle.wall_thickness", dim::length, "0", "of a hollow hull; 0: from `mass`", 0),
       number("vehicle.mass", dim::mass, "0",
-             "of the full vehicle; 0: from the material's density. A solid vehicle with a mass gets another density", 0),
+             "of the full vehicle; 0: from the material's density. A solid vehicle with a mass gets another density",
+             0),
       text("vehicle.material", "aluminium", "card, law elastic"),
       number("vehicle.speed", dim::speed, "40 m/s", "upward, at the start", 0, 1000),
       number("vehicle.nose_position", dim::length, "auto",
@@ -115,10 +124,13 @@ std::vector<KeyRule> fluid_rules() {
       positive("air.height", dim::length, "30 mm",
                "above the ice's upper face or the waterline; raised to hold the vehicle until the end"),
       number("air.pressure", dim::pressure, "101325 Pa", "atmospheric pressure", 0),
-      positive("fluid.length", dim::length, "auto", "along x, of the full domain; auto: the ice's, 20 diameters without ice"),
+      positive("fluid.length", dim::length, "auto",
+               "along x, of the full domain; auto: the ice's, 20 diameters without ice"),
       positive("fluid.width", dim::length, "auto", "along y, likewise"),
-      choice("fluid.start", {"potential_flow", "impulsive"}, "potential_flow", "state of the water around the moving vehicle"),
-      choice("fluid.outer_boundary", {"non_reflecting", "wall"}, "non_reflecting", "sides, bottom and top of the domain"),
+      choice("fluid.start", {"potential_flow", "impulsive"}, "potential_flow",
+             "state of the water around the moving vehicle"),
+      choice("fluid.outer_boundary", {"non_reflecting", "wall"}, "non_reflecting",
+             "sides, bottom and top of the domain"),
       positive("tube.length", dim::length, "required", "along x; a scene with [tube] holds nothing but the tube"),
       positive("tube.diaphragm", dim::length, "auto", "x of the diaphragm; auto: the middle"),
   };
@@ -172,7 +184,8 @@ std::string allowed(const KeyRule& rule) {
     return (rule.choices.size() > 1 ? "one of " : "") + list;
   }
   std::string result = rule.kind == Kind::integer ? "a whole number" : describe(rule.dimension);
-  if (rule.lower > -infinity) result += (rule.lower_open ? ", above " : ", at least ") + limit(rule.lower, rule.dimension);
+  if (rule.lower > -infinity)
+    result += (rule.lower_open ? ", above " : ", at least ") + limit(rule.lower, rule.dimension);
   if (rule.upper < infinity) result += ", at most " + limit(rule.upper, rule.dimension);
   return result;
 }

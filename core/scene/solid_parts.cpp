@@ -8,24 +8,30 @@
 namespace polynya::scene {
 namespace {
 
-constexpr double default_nose_gap = 4e-3;      // m, the paper's first stage: 0.1 ms at 40 m/s
-constexpr double thinnest_wall = 0.01;         // of the radius: below it a mass is a slip of units
-constexpr double solid_mass_tolerance = 0.2;   // between a given mass and the material's density
+constexpr double default_nose_gap = 4e-3;     // m, the paper's first stage: 0.1 ms at 40 m/s
+constexpr double thinnest_wall = 0.01;        // of the radius: below it a mass is a slip of units
+constexpr double solid_mass_tolerance = 0.2;  // between a given mass and the material's density
 
-std::string grams(double mass) {
+std::string in_units(double value, const char* unit) {
   std::ostringstream stream;
   stream.precision(3);
-  stream << mass * 1e3 << " g";
+  stream << value << unit;
   return stream.str();
+}
+
+std::string grams(double mass) {
+  return in_units(mass * 1e3, " g");
 }
 
 double head_length(const Values& values, const Vehicle& v) {
   const bool hemisphere = v.head == "hemisphere";
   const double length = values.number("vehicle.head_length", hemisphere ? 0.5 * v.diameter : v.diameter);
   if (hemisphere && std::abs(length - 0.5 * v.diameter) > 1e-9 * v.diameter)
-    values.fail("vehicle.head_length", "a hemisphere is half a diameter long; leave the key out, or take head = \"ellipsoid\"");
+    values.fail("vehicle.head_length",
+                "a hemisphere is half a diameter long; leave the key out, or take head = \"ellipsoid\"");
   if (v.head == "ogive" && length < 0.5 * v.diameter)
-    values.fail("vehicle.head_length", "a tangent ogive is at least half a diameter long; take head = \"ellipsoid\" for a blunter one");
+    values.fail("vehicle.head_length",
+                "a tangent ogive is at least half a diameter long; take head = \"ellipsoid\" for a blunter one");
   if (length >= v.length) values.fail("vehicle.head_length", "must be below vehicle.length");
   return length;
 }
@@ -44,13 +50,15 @@ Vehicle read_vehicle(const Values& values) {
   v.material = values.text("vehicle.material");
   v.speed = values.number("vehicle.speed");
   const bool hollow = v.interior == "hollow";
-  if (!hollow && v.wall_thickness > 0) values.fail("vehicle.wall_thickness", "a solid vehicle has no wall; set interior = \"hollow\"");
+  if (!hollow && v.wall_thickness > 0)
+    values.fail("vehicle.wall_thickness", "a solid vehicle has no wall; set interior = \"hollow\"");
   if (hollow && v.wall_thickness == 0 && v.mass == 0)
     values.fail("vehicle.interior", "a hollow vehicle needs vehicle.mass or vehicle.wall_thickness");
   if (hollow && v.wall_thickness > 0 && v.mass > 0)
     values.fail("vehicle.wall_thickness", "mass and wall_thickness exclude each other; set one of them to 0");
-  if (v.wall_thickness >= 0.5 * v.diameter)
-    values.fail("vehicle.wall_thickness", "must be below the radius, half of vehicle.diameter");
+  if (v.wall_thickness > thickest_wall(v))
+    values.fail("vehicle.wall_thickness",
+                "leaves no cavity; at most " + in_units(thickest_wall(v) * 1e3, " mm") + " in this hull");
   return v;
 }
 
@@ -64,9 +72,11 @@ void check_hull(const Values& values, const Vehicle& v, const MaterialCard& card
     return;
   }
   const double least = density * shell_volume(v, thinnest_wall * 0.5 * v.diameter);
-  if (v.mass >= solid || v.mass < least)
-    values.fail("vehicle.mass", std::string(v.mass >= solid ? "too large" : "too small") + " for a hollow hull of this shape in " +
-                                    card.name + "; allowed is " + grams(least) + " to " + grams(solid));
+  const double most = density * shell_volume(v, thickest_wall(v));
+  if (v.mass > most || v.mass < least)
+    values.fail("vehicle.mass", std::string(v.mass > most ? "too large" : "too small") +
+                                    " for a hollow hull of this shape in " + card.name + "; allowed is " +
+                                    grams(least) + " to " + grams(most));
 }
 
 void place_vehicle(const Values& values, Scene& scene) {
@@ -76,7 +86,8 @@ void place_vehicle(const Values& values, Scene& scene) {
   if (scene.ice && v.nose_position >= ceiling)
     values.fail("vehicle.nose_position", "the vehicle would start inside the ice; must be below ice.lower_face");
   if (!scene.ice) return;
-  if (scene.ice->bending) values.fail("vehicle.speed", "a beam in bending has no vehicle; remove [vehicle] or [ice.bending]");
+  if (scene.ice->bending)
+    values.fail("vehicle.speed", "a beam in bending has no vehicle; remove [vehicle] or [ice.bending]");
   if (v.diameter >= std::min(scene.ice->length, scene.ice->width))
     values.fail("vehicle.diameter", "must be below ice.length and ice.width");
 }

@@ -26,6 +26,7 @@ constexpr std::array units{
     Unit{"t", 1e3, dimension::mass, false},
     Unit{"s", 1, dimension::time, true},
     Unit{"min", 60, dimension::time, false},
+    Unit{"h", 3600, dimension::time, false},
     Unit{"K", 1, temperature, true},
     Unit{"Hz", 1, dimension::frequency, true},
     Unit{"N", 1, force, true},

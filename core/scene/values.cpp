@@ -15,9 +15,12 @@ std::string as_written(const Entry& entry) {
   std::visit(
       [&](const auto& value) {
         using T = std::decay_t<decltype(value)>;
-        if constexpr (std::is_same_v<T, bool>) stream << (value ? "true" : "false");
-        else if constexpr (std::is_same_v<T, std::string>) stream << '"' << value << '"';
-        else stream << value;
+        if constexpr (std::is_same_v<T, bool>)
+          stream << (value ? "true" : "false");
+        else if constexpr (std::is_same_v<T, std::string>)
+          stream << '"' << value << '"';
+        else
+          stream << value;
       },
       entry.value);
   return stream.str();
@@ -60,7 +63,9 @@ std::string siblings(const std::string& path) {
   return list;
 }
 
-std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+std::string last_part(const std::string& path) {
+  return path.substr(path.rfind('.') + 1);
+}
 
 /// A key elsewhere whose last part holds that of `path`: "speed" -> "vehicle.speed".
 std::string elsewhere(const std::string& path) {
@@ -87,7 +92,8 @@ std::string elsewhere(const std::string& path) {
 void check_keys(const Document& document) {
   for (const auto& [path, where] : document.tables) {
     if (is_table(path)) continue;
-    if (find_rule(path)) throw SceneError(where + ": " + path + ": is a table here, but must be " + allowed(rule_of(path)));
+    if (find_rule(path))
+      throw SceneError(where + ": " + path + ": is a table here, but must be " + allowed(rule_of(path)));
     fail_unknown(where, path, "table", known_tables());
   }
   for (const auto& [path, entry] : document.values) {
@@ -97,7 +103,9 @@ void check_keys(const Document& document) {
   }
 }
 
-Values::Values(const Document& document) : document_(document) { check_keys(document); }
+Values::Values(const Document& document) : document_(document) {
+  check_keys(document);
+}
 
 void Values::fail(const std::string& path, const std::string& what) const {
   if (const auto entry = document_.values.find(path); entry != document_.values.end())
@@ -131,7 +139,8 @@ std::optional<double> Values::given(const std::string& path) const {
     fail(path, "must be " + allowed(rule));
   }
   if (!quantity.bare && quantity.dimension != rule.dimension)
-    fail(path, "wrong dimension, found " + (quantity.dimension == Dimension{} ? "a plain number" : unit_name(quantity.dimension)) +
+    fail(path, "wrong dimension, found " +
+                   (quantity.dimension == Dimension{} ? "a plain number" : unit_name(quantity.dimension)) +
                    "; must be " + allowed(rule));
   const bool too_small = quantity.value < rule.lower || (rule.lower_open && quantity.value == rule.lower);
   const bool broken = rule.kind == Kind::integer && quantity.value != std::floor(quantity.value);
@@ -140,7 +149,9 @@ std::optional<double> Values::given(const std::string& path) const {
   return quantity.value;
 }
 
-double Values::number(const std::string& path, double computed) const { return given(path).value_or(computed); }
+double Values::number(const std::string& path, double computed) const {
+  return given(path).value_or(computed);
+}
 
 double Values::number(const std::string& path) const {
   if (const auto value = given(path)) return *value;

@@ -34,7 +34,15 @@ double hull_radius(const Vehicle& vehicle, double s) {
   return radius * std::sqrt(1 - (ahead / head) * (ahead / head));
 }
 
-double hull_volume(const Vehicle& vehicle) { return revolved_volume(vehicle, 0, vehicle.length); }
+double thickest_wall(const Vehicle& vehicle) {
+  const double radius = 0.5 * vehicle.diameter, head = vehicle.head_length;
+  if (vehicle.head == "ogive") return 0.9 * radius;
+  return 0.9 * std::min({radius, radius * radius / head, head * head / radius});
+}
+
+double hull_volume(const Vehicle& vehicle) {
+  return revolved_volume(vehicle, 0, vehicle.length);
+}
 
 double shell_volume(const Vehicle& vehicle, double wall) {
   return hull_volume(vehicle) - revolved_volume(vehicle, wall, std::max(vehicle.length - wall, 0.0));

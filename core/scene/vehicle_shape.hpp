@@ -7,6 +7,9 @@ namespace polynya::scene {
 /// smoothly; ellipsoid and hemisphere: quarter ellipse.
 double hull_radius(const Vehicle& vehicle, double distance_from_nose);
 
+/// Thickest wall (m) that leaves a cavity: 0.9 of the radius and of the sharpest curvature of the head's outline.
+double thickest_wall(const Vehicle& vehicle);
+
 /// Volume (m^3) inside the outer hull.
 double hull_volume(const Vehicle& vehicle);
 

@@ -1,0 +1,68 @@
+#include "core/scene/effects.hpp"
+#include "tests/core/scene/scene_files.hpp"
+
+namespace polynya::scene {
+namespace {
+
+TEST(Effects, EveryEffectIsDecidedWithAReason) {
+  for (const std::string name : {"water_exit", "vehicle_drop", "beam_bending", "shock_tube"}) {
+    const Scene scene = resolve(case_folder(name));
+    for (const auto& effect : effect_names()) {
+      EXPECT_EQ(scene.effects.at(effect).requested, "auto") << name << ' ' << effect;
+      EXPECT_FALSE(scene.effects.at(effect).reason.empty()) << name << ' ' << effect;
+    }
+    EXPECT_EQ(scene.effects.size(), effect_names().size());
+  }
+}
+
+TEST(Effects, TheBaseSceneHasAllThatThisVersionOffers) {
+  const Scene scene = base_scene();
+  for (const std::string name : {"fluid", "deformable_vehicle", "ice_failure", "conversion", "cavitation", "gravity",
+                                 "friction", "debris_displacement", "non_reflecting_boundaries", "symmetry"})
+    EXPECT_TRUE(scene.effect(name)) << name;
+}
+
+TEST(Effects, WhatDoesNotExistYetIsOffAndCannotBeAskedFor) {
+  for (const std::string name :
+       {"gradient_correction", "artificial_stress", "interface_reconstruction", "debris_drag", "sleeping"}) {
+    EXPECT_FALSE(base_scene().effect(name));
+    EXPECT_EQ(base_scene().effects.at(name).reason, "not available in this version");
+    EXPECT_FALSE(base_scene({"effects." + name + "=off"}).effect(name));
+    EXPECT_NE(message_of_settings({"effects." + name + "=on"}).find("not available in this version"),
+              std::string::npos);
+  }
+}
+
+TEST(Effects, FluidOffLeavesNoFluidNoWaterAndNoParticipant) {
+  const Scene scene = base_scene({"effects.fluid=off"});
+  EXPECT_FALSE(scene.effect("fluid"));
+  EXPECT_FALSE(scene.fluid.has_value());
+  EXPECT_FALSE(scene.effect("cavitation"));
+  EXPECT_FALSE(scene.effect("debris_displacement"));
+  EXPECT_FALSE(scene.participants.contains("fluid"));
+  EXPECT_FALSE(scene.materials.contains("water"));
+  EXPECT_TRUE(scene.participants.contains("ice"));
+}
+
+TEST(Effects, AFluidCannotBeSwitchedOnWithoutWater) {
+  EXPECT_NE(message_of(case_folder("vehicle_drop"), {.level = {}, .settings = {"effects.fluid=on"}}).find("no [water]"),
+            std::string::npos);
+}
+
+TEST(Effects, TheSceneAgreesWithTheDecision) {
+  const Scene scene = base_scene({"effects.gravity=off", "effects.friction=off", "effects.deformable_vehicle=off",
+                                  "effects.non_reflecting_boundaries=off", "effects.symmetry=off"});
+  EXPECT_EQ(scene.run.gravity, 0);
+  EXPECT_EQ(scene.contact.friction, 0);
+  EXPECT_FALSE(scene.vehicle->deformable);
+  EXPECT_EQ(scene.ice->sides, "free");
+  EXPECT_EQ(scene.fluid->outer_boundary, "wall");
+  EXPECT_EQ(scene.symmetry, Symmetry::full);
+}
+
+TEST(Effects, ElasticIceDoesNotFail) {
+  EXPECT_FALSE(base_scene({"ice.material=aluminium", "water.surface=5 mm"}).effect("ice_failure"));
+}
+
+}  // namespace
+}  // namespace polynya::scene

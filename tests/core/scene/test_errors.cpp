@@ -1,0 +1,92 @@
+#include "tests/core/scene/scene_files.hpp"
+
+namespace polynya::scene {
+namespace {
+
+/// One line that holds all of these words.
+void expect_message(const std::string& message, const std::vector<std::string>& words) {
+  EXPECT_FALSE(message.empty());
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  for (const auto& word : words) EXPECT_NE(message.find(word), std::string::npos) << message << "\nlacks: " << word;
+}
+
+TEST(SceneErrors, AnUnknownKeyIsNamedWithItsLineAndTheNearestSpelling) {
+  const auto file = scene_file("title = \"x\"\n\n[vehicle]\nmass = \"5 g\"\nsped = \"40 m/s\"\n");
+  expect_message(message_of(file), {file.string() + ":5: ", "'vehicle.sped'", "did you mean 'vehicle.speed'?"});
+}
+
+TEST(SceneErrors, AnUnknownTableIsNamedBeforeItsKeys) {
+  const auto file = scene_file("[vehicel]\nmass = \"5 g\"\n");
+  expect_message(message_of(file), {":1: ", "unknown table 'vehicel'", "did you mean 'vehicle'?"});
+}
+
+TEST(SceneErrors, AKeyOfAnotherTableIsFound) {
+  expect_message(message_of_settings({"vehicle.deformable=true"}), {"did you mean 'effects.deformable_vehicle'?"});
+  expect_message(message_of_settings({"speed=3"}), {"did you mean 'vehicle.speed'?"});
+}
+
+TEST(SceneErrors, AWrongDimensionSaysWhatIsNeeded) {
+  const auto file = scene_file("[vehicle]\nmass = \"5 g\"\nspeed = \"40 mm\"\n");
+  expect_message(message_of(file),
+                 {":3: vehicle.speed = \"40 mm\"", "wrong dimension, found m", "a speed such as \"40 m/s\""});
+}
+
+TEST(SceneErrors, BrokenTomlIsOneLine) {
+  const auto file = scene_file("[vehicle]\nspeed = 40 m/s\n");
+  expect_message(message_of(file), {file.string() + ":2: not valid TOML"});
+}
+
+TEST(SceneErrors, AMissingFileIsNamed) {
+  expect_message(message_of("/no/such/folder"), {"/no/such/folder: no such file"});
+}
+
+struct Impossible {
+  std::vector<std::string> settings;
+  std::vector<std::string> words;
+};
+
+TEST(SceneErrors, ImpossibleValuesSayWhatIsAllowed) {
+  const std::vector<Impossible> list{
+      {{"ice.thickness=-1 mm"}, {"ice.thickness = \"-1 mm\"", "above 0"}},
+      {{"ice.thickness=0"}, {"above 0"}},
+      {{"vehicle.speed=-3"}, {"at least 0, at most 1000 m/s"}},
+      {{"vehicle.head=ogve"}, {"one of ogive, hemisphere, ellipsoid", "did you mean ogive?"}},
+      {{"vehicle.mass=0.1 g"}, {"too small for a hollow hull", "allowed is"}},
+      {{"vehicle.mass=5 kg"}, {"too large for a hollow hull", "allowed is"}},
+      {{"vehicle.interior=solid"}, {"scene.toml:", "vehicle.mass = \"5 g\"", "solid hull of this shape in aluminium"}},
+      {{"vehicle.mass=0"}, {"needs vehicle.mass or vehicle.wall_thickness"}},
+      {{"vehicle.wall_thickness=1 mm"}, {"exclude each other"}},
+      {{"vehicle.mass=0", "vehicle.wall_thickness=6 mm"}, {"leaves no cavity", "at most 4.5 mm"}},
+      {{"vehicle.head_length=4 mm"}, {"ogive", "half a diameter"}},
+      {{"vehicle.head=hemisphere", "vehicle.head_length=10 mm"}, {"hemisphere"}},
+      {{"vehicle.nose_position=1 mm"}, {"must be below ice.lower_face"}},
+      {{"ice.material=ice.papr"}, {"no card of that name", "did you mean 'ice.paper'?"}},
+      {{"ice.material=water"}, {"must be johnson_holmquist_2 or elastic"}},
+      {{"materials.\"ice.paper\".damage_constan=1"}, {"did you mean 'damage_constant'?"}},
+      {{"materials.\"ice.paper\".shear_modulus=\"3 kg\""}, {"wrong dimension, found kg", "a pressure or stress"}},
+      {{"materials.\"ice.paper\".hugoniot_elastic_limit=1e9"}, {"must exceed pressure_at_hugoniot_elastic_limit"}},
+      {{"materials.\"ice.fresh\".damage_constant=1"}, {"the scene does not use such a card"}},
+      {{"run.end=exit"}, {"one of auto, ice_passed, exited, time"}},
+      {{"run.seed=1.5"}, {"a whole number"}},
+      {{"ice.critical_strain=true"}, {"a plain number"}},
+      {{"resolution.cell=2"}, {"must not exceed ice.thickness"}},
+      {{"fluid.length=100 mm"}, {"must not be below that of the ice"}},
+      {{"vehicle=3"}, {"must be a table, [vehicle]"}},
+      {{"vehicle"}, {"must be key=value"}},
+  };
+  for (const auto& item : list) expect_message(message_of_settings(item.settings), item.words);
+}
+
+TEST(SceneErrors, PartsThatCannotStandTogetherAreNamed) {
+  expect_message(message_of(scene_file("[water]\n")), {":1: ", "add [air]"});
+  expect_message(message_of(scene_file("[tube]\n[ice]\n")), {":2: ", "[ice] cannot stand beside [tube]"});
+  expect_message(message_of(scene_file("")), {"an empty scene"});
+}
+
+TEST(SceneErrors, ARequiredKeyIsAskedFor) {
+  expect_message(message_of(scene_file("[ice]\n[ice.bending]\nload_span = 0.1\n")),
+                 {":2: ice.bending.support_span: missing; must be a length"});
+}
+
+}  // namespace
+}  // namespace polynya::scene
