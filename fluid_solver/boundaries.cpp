@@ -1,0 +1,182 @@
+// The six sides of the grid. Walls (and planes of symmetry) have closed faces and no normal velocity. Non-reflecting sides
+// hold the undisturbed pressure of their layer plus the impedance rho c times the outward speed, and let fluid through:
+// what leaves has the state inside, what enters has the ambient state of the layer.
+#include <algorithm>
+#include <cmath>
+
+#include "fluid_solver/phases.hpp"
+
+namespace polynya::fluid {
+namespace {
+
+struct Side {
+  int axis;
+  bool upper;
+};
+constexpr std::array<Side, 6> sides{{{0, false}, {0, true}, {1, false}, {1, true}, {2, false}, {2, true}}};
+
+int number(const Grid& grid, int axis) { return axis == 0 ? grid.nx : axis == 1 ? grid.ny : grid.nz; }
+
+/// Calls body(inner cell, ghost cell, face, k) for every cell along a side; nodes instead of cells with extra = 1.
+template <class Body>
+void along(const Grid& grid, Side side, int extra, Body&& body) {
+  const int t1 = side.axis == 0 ? 1 : 0, t2 = side.axis == 2 ? 1 : 2;
+  const std::ptrdiff_t s = grid.stride(side.axis), s1 = grid.stride(t1), s2 = grid.stride(t2);
+  const std::ptrdiff_t first = side.upper ? (number(grid, side.axis) + extra) * s : s;
+  for (int b = 1; b <= number(grid, t2) + extra; ++b) {
+    for (int a = 1; a <= number(grid, t1) + extra; ++a) body(first + a * s1 + b * s2);
+  }
+}
+
+double face_area(const Grid& grid, int axis, std::ptrdiff_t cell) {
+  int i, j, k;
+  grid.position(cell, i, j, k);
+  return axis == 0 ? grid.dy[j] * grid.dz[k] : axis == 1 ? grid.dx[i] * grid.dz[k] : grid.dx[i] * grid.dy[j];
+}
+
+double mean_open(const Fluid& fluid, int axis, std::ptrdiff_t face) {
+  return 0.5 * (fluid.before.open[axis][face] + fluid.after.open[axis][face]);
+}
+
+}  // namespace
+
+void apply_ambient(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  for (const Side side : sides) {
+    along(grid, side, 0, [&](std::ptrdiff_t cell) {
+      const std::ptrdiff_t ghost = side.upper ? cell + grid.stride(side.axis) : cell - grid.stride(side.axis);
+      const Ambient& outside = fluid.ambient[static_cast<std::size_t>(cell / grid.sz)];
+      fluid.donor_mass[ghost] = outside.density[0] + outside.density[1];
+      for (int m = 0; m < 2; ++m) {
+        fluid.donor[m].mass[ghost] = outside.density[m];
+        fluid.donor[m].energy[ghost] = outside.energy_density[m];
+        fluid.donor[m].volume[ghost] = outside.fraction[m];
+      }
+    });
+  }
+}
+
+void set_boundary_pressure(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    if (fluid.setup.boundary[s] == Boundary::wall) continue;
+    const Side side = sides[s];
+    const std::ptrdiff_t stride = grid.stride(side.axis);
+    const double outward = side.upper ? 1.0 : -1.0;
+    along(grid, side, 0, [&](std::ptrdiff_t cell) {
+      const std::ptrdiff_t face = side.upper ? cell + stride : cell, ghost = side.upper ? cell + stride : cell - stride;
+      const std::size_t k = static_cast<std::size_t>(cell / grid.sz);
+      double pressure = fluid.ambient[k].pressure;
+      if (side.axis == 2) {
+        // From the height of the cell's centre to the face, with the ambient density.
+        const double density = fluid.ambient[k].density[0] + fluid.ambient[k].density[1];
+        pressure -= outward * fluid.setup.gravity * (0.5 * grid.dz[k] * density);
+      }
+      const double area = face_area(grid, side.axis, cell) * mean_open(fluid, side.axis, face);
+      if (area > 0) {
+        const double speed = fluid.face_rate[side.axis][face] / area - fluid.setup.ambient_velocity[side.axis];
+        pressure += fluid.density[cell] * fluid.sound_speed[cell] * outward * speed;
+      }
+      fluid.predicted_pressure[ghost] = pressure;
+    });
+  }
+}
+
+void book_boundary(Fluid& fluid, double dt, const std::vector<StepWall>& walls) {
+  const Grid& grid = fluid.grid;
+  Account& account = fluid.account;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const Side side = sides[s];
+    const std::ptrdiff_t stride = grid.stride(side.axis);
+    const double outward = side.upper ? 1.0 : -1.0;
+    double impulse = 0, work = 0;
+    along(grid, side, 0, [&](std::ptrdiff_t cell) {
+      const std::ptrdiff_t face = side.upper ? cell + stride : cell, ghost = side.upper ? cell + stride : cell - stride;
+      const std::ptrdiff_t opposite = side.upper ? cell : cell + stride;
+      const double area = face_area(grid, side.axis, cell);
+      const double open = area * mean_open(fluid, side.axis, face);
+      impulse += dt * outward * open * fluid.predicted_pressure[ghost];
+      work += dt * outward * fluid.face_rate[side.axis][face] * fluid.predicted_pressure[ghost];
+      // What closes the cell besides its open faces and the bodies is the wall of the domain.
+      if (fluid.setup.boundary[s] == Boundary::wall) {
+        impulse += dt * outward * area * mean_open(fluid, side.axis, opposite) * fluid.predicted_pressure[cell];
+      }
+    });
+    if (fluid.setup.boundary[s] == Boundary::wall) {
+      for (const StepWall& wall : walls) {
+        int index[3];
+        grid.position(wall.cell, index[0], index[1], index[2]);
+        if (index[side.axis] != (side.upper ? number(grid, side.axis) : 1)) continue;
+        if (number(grid, side.axis) == 1) continue;  // one cell thick: both sides share it, and nothing moves across
+        impulse -= dt * fluid.predicted_pressure[wall.cell] * (wall.area[0][side.axis] + wall.area[1][side.axis]);
+      }
+    }
+    account.boundary_impulse[side.axis] += impulse;
+    account.boundary_work += work;
+  }
+}
+
+void book_boundary_flow(Fluid& fluid, double dt) {
+  const Grid& grid = fluid.grid;
+  Account& account = fluid.account;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    if (fluid.setup.boundary[s] == Boundary::wall) continue;
+    const Side side = sides[s];
+    const std::ptrdiff_t stride = grid.stride(side.axis);
+    const double outward = side.upper ? 1.0 : -1.0;
+    along(grid, side, 0, [&](std::ptrdiff_t cell) {
+      const std::ptrdiff_t face = side.upper ? cell + stride : cell, ghost = side.upper ? cell + stride : cell - stride;
+      const double volume = outward * dt * fluid.face_rate[side.axis][face];
+      const std::ptrdiff_t from = volume >= 0 ? cell : ghost;
+      for (int m = 0; m < 2; ++m) {
+        account.boundary_mass[m] += volume * fluid.donor[m].mass[from];
+        account.boundary_energy += volume * fluid.donor[m].energy[from];
+      }
+    });
+    const std::ptrdiff_t t1 = grid.stride((side.axis + 1) % 3), t2 = grid.stride((side.axis + 2) % 3);
+    const double* mass = fluid.face_mass[side.axis].data();
+    along(grid, side, 1, [&](std::ptrdiff_t node) {
+      const double out = outward * 0.25 * ((mass[node] + mass[node - t1]) + (mass[node - t2] + mass[node - t1 - t2]));
+      for (int d = 0; d < 3; ++d) account.boundary_impulse[d] += out * fluid.next_velocity[d][node];
+    });
+  }
+}
+
+void copy_face_mass_to_ghosts(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  for (const Side side : sides) {
+    const std::ptrdiff_t stride = grid.stride(side.axis);
+    along(grid, side, 0, [&](std::ptrdiff_t cell) {
+      const std::ptrdiff_t face = side.upper ? cell + stride : cell;
+      fluid.face_mass[side.axis][side.upper ? face + stride : face - stride] = fluid.face_mass[side.axis][face];
+    });
+  }
+}
+
+void copy_velocity_to_ghosts(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  for (const Side side : sides) {
+    const std::ptrdiff_t stride = grid.stride(side.axis);
+    along(grid, side, 1, [&](std::ptrdiff_t node) {
+      const std::ptrdiff_t ghost = side.upper ? node + stride : node - stride;
+      for (auto& component : fluid.next_velocity) component[ghost] = component[node];
+    });
+  }
+}
+
+void close_wall_nodes(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    if (fluid.setup.boundary[s] != Boundary::wall) continue;
+    const int axis = sides[s].axis;
+    along(grid, sides[s], 1, [&](std::ptrdiff_t node) {
+      double& u = fluid.velocity[axis][node];
+      if (u == 0) return;
+      fluid.account.boundary_impulse[axis] += fluid.node_mass[node] * u;
+      fluid.account.node_fix += 0.5 * fluid.node_mass[node] * u * u;
+      u = 0;
+    });
+  }
+}
+
+}  // namespace polynya::fluid

@@ -1,0 +1,127 @@
+#include "fluid_solver/cut_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace polynya::fluid {
+
+double full_volume(const Grid& grid, std::ptrdiff_t cell) {
+  int i, j, k;
+  grid.position(cell, i, j, k);
+  return grid.dx[i] * grid.dy[j] * grid.dz[k];
+}
+
+double empty_open_fraction(const Grid& grid, const std::array<Boundary, 6>& boundary, int axis, std::ptrdiff_t face) {
+  const std::array<int, 3> number{grid.nx, grid.ny, grid.nz};
+  std::array<int, 3> index{};
+  grid.position(face, index[0], index[1], index[2]);
+  for (int other = 0; other < 3; ++other) {
+    if (index[other] < 1 || index[other] > number[other] + (other == axis)) return 0.0;
+  }
+  if (index[axis] == 1) return boundary[2 * axis] == Boundary::wall ? 0.0 : 1.0;
+  if (index[axis] == number[axis] + 1) return boundary[2 * axis + 1] == Boundary::wall ? 0.0 : 1.0;
+  return 1.0;
+}
+
+CutGeometry::CutGeometry(const Grid& grid, const std::array<Boundary, 6>& boundary)
+    : volume(grid.size, 0.0), node_fraction(grid.size, 0.0) {
+  for (auto& fraction : open) fraction.assign(grid.size, 0.0);
+  for_rows(grid, 1, [&](int j, int k) {
+    for (int i = 1; i <= grid.nx + 1; ++i) {
+      const std::ptrdiff_t c = grid.at(i, j, k);
+      if (i <= grid.nx && j <= grid.ny && k <= grid.nz) volume[c] = full_volume(grid, c);
+      for (int axis = 0; axis < 3; ++axis) open[axis][c] = empty_open_fraction(grid, boundary, axis, c);
+      node_fraction[c] = 1.0;
+    }
+  });
+}
+
+void CutGeometry::restore(const Grid& grid, const std::array<Boundary, 6>& boundary) {
+  for (const std::ptrdiff_t c : cells_) volume[c] = full_volume(grid, c);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const std::ptrdiff_t f : faces_[axis]) open[axis][f] = empty_open_fraction(grid, boundary, axis, f);
+    faces_[axis].clear();
+  }
+  for (const std::ptrdiff_t n : nodes_) node_fraction[n] = 1.0;
+  cells_.clear();
+  nodes_.clear();
+  walls.clear();
+  clamped_debris = 0;
+}
+
+void CutGeometry::set(const Grid& grid, const std::array<Boundary, 6>& boundary, const Overlap& overlap) {
+  restore(grid, boundary);
+  for (std::size_t m = 0; m < overlap.cell.size(); ++m) {
+    const std::ptrdiff_t c = grid.from_message(overlap.cell[m]);
+    const double full = full_volume(grid, c), solid = overlap.solid_volume[m];
+    double debris = overlap.debris_volume.empty() ? 0.0 : overlap.debris_volume[m];
+    if (!(solid >= -1e-9 * full && solid <= full * (1.0 + 1e-9) && debris >= 0)) {
+      throw std::invalid_argument("overlap cell " + std::to_string(overlap.cell[m]) + ": solid volume " +
+                                  std::to_string(solid / full) + " and debris " + std::to_string(debris / full) +
+                                  " of the cell's volume; expected 0 to 1");
+    }
+    const double room = std::max(0.0, full - solid);
+    // Particles may be packed closer than the cell allows where solids crowd it; some fluid always stays between them.
+    if (debris > 0.9 * room) {
+      debris = 0.9 * room;
+      ++clamped_debris;
+    }
+    const double free = room - debris;
+    volume[c] = free < void_fraction * full ? 0.0 : free;
+    cells_.push_back(c);
+    WallPiece piece{.cell = c, .debris = debris, .area = {}, .velocity = {}};
+    for (int body = 0; body < 2; ++body) {
+      for (int axis = 0; axis < 3; ++axis) {
+        piece.area[body][axis] = overlap.wall_area[6 * m + 3 * body + axis];
+        piece.velocity[body][axis] = overlap.wall_velocity[6 * m + 3 * body + axis];
+      }
+    }
+    walls.push_back(piece);
+  }
+  std::sort(walls.begin(), walls.end(), [](const WallPiece& a, const WallPiece& b) { return a.cell < b.cell; });
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t m = 0; m < overlap.face[axis].size(); ++m) {
+      const std::ptrdiff_t f = grid.face_from_message(axis, overlap.face[axis][m]);
+      const double solid = std::clamp(overlap.face_solid[axis][m], 0.0, 1.0);
+      open[axis][f] = empty_open_fraction(grid, boundary, axis, f) * (1.0 - solid);
+      faces_[axis].push_back(f);
+    }
+  }
+  // Nothing flows through the faces of a cell without fluid.
+  for (const std::ptrdiff_t c : cells_) {
+    if (volume[c] > 0) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const std::ptrdiff_t f : {c, c + grid.stride(axis)}) {
+        if (open[axis][f] == 0.0) continue;
+        open[axis][f] = 0.0;
+        faces_[axis].push_back(f);
+      }
+    }
+  }
+  update_nodes(grid);
+}
+
+void CutGeometry::update_nodes(const Grid& grid) {
+  for (const std::ptrdiff_t c : cells_) {
+    for (int corner = 0; corner < 8; ++corner) {
+      nodes_.push_back(c + (corner & 1) + (corner & 2 ? grid.sy : 0) + (corner & 4 ? grid.sz : 0));
+    }
+  }
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+  for (const std::ptrdiff_t n : nodes_) {
+    double sum = 0;
+    int number = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const std::ptrdiff_t c = n - (corner & 1) - (corner & 2 ? grid.sy : 0) - (corner & 4 ? grid.sz : 0);
+      if (!grid.inside(c)) continue;
+      sum += volume[c] / full_volume(grid, c);
+      ++number;
+    }
+    node_fraction[n] = sum / number;
+  }
+}
+
+}  // namespace polynya::fluid

@@ -1,0 +1,48 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "fluid_solver/grid.hpp"
+#include "fluid_solver/overlap.hpp"
+
+namespace polynya::fluid {
+
+enum class Boundary { wall, non_reflecting };  ///< wall: closed, also a plane of symmetry
+
+/// A cell that holds solid, in grid terms.
+struct WallPiece {
+  std::ptrdiff_t cell = 0;
+  double debris = 0;                                   ///< displaced by particles, m^3
+  std::array<std::array<double, 3>, 2> area{};         ///< per body, into the body, m^2
+  std::array<std::array<double, 3>, 2> velocity{};     ///< m/s
+};
+
+/// What the solids leave to the fluid at one time: free volume of cells, open fraction of faces, and the free fraction
+/// around nodes. Only entries touched by solid differ from the empty grid, and only those are rewritten by `set`.
+struct CutGeometry {
+  std::vector<double> volume;                ///< free volume, m^3; ghosts 0
+  std::array<std::vector<double>, 3> open;   ///< open fraction of lower faces; closed boundaries and ghosts 0
+  std::vector<double> node_fraction;         ///< mean free fraction of the cells around a node ("beta")
+  std::vector<WallPiece> walls;              ///< sorted by cell
+  long clamped_debris = 0;                   ///< cells whose debris did not fit
+
+  CutGeometry(const Grid& grid, const std::array<Boundary, 6>& boundary);
+  /// Throws std::invalid_argument naming the first entry that is out of range or not a number.
+  void set(const Grid& grid, const std::array<Boundary, 6>& boundary, const Overlap& overlap);
+
+ private:
+  void restore(const Grid& grid, const std::array<Boundary, 6>& boundary);
+  void update_nodes(const Grid& grid);
+  std::vector<std::ptrdiff_t> cells_, nodes_;
+  std::array<std::vector<std::ptrdiff_t>, 3> faces_;
+};
+
+/// Volume of a cell without solids.
+double full_volume(const Grid& grid, std::ptrdiff_t cell);
+/// Open fraction of a face without solids: 1 inside and at open boundaries, 0 at walls and outside.
+double empty_open_fraction(const Grid& grid, const std::array<Boundary, 6>& boundary, int axis, std::ptrdiff_t face);
+
+/// A free volume below this fraction of its cell holds no fluid.
+inline constexpr double void_fraction = 1e-8;
+
+}  // namespace polynya::fluid

@@ -1,0 +1,42 @@
+#pragma once
+#include <cmath>
+#include <stdexcept>
+#include <variant>
+
+#include "fluid_solver/ideal_gas.hpp"
+#include "fluid_solver/linear_polynomial.hpp"
+#include "fluid_solver/mie_grueneisen.hpp"
+#include "fluid_solver/stiffened_gas.hpp"
+
+namespace polynya::fluid {
+
+/// One of the laws, by value. Hot loops are entered once per row with std::visit, never per cell.
+using EquationOfState = std::variant<MieGrueneisen, LinearPolynomial, IdealGas, StiffenedGas>;
+
+inline Response respond(const EquationOfState& law, double rho, double e) {
+  return std::visit([&](const auto& each) { return each(rho, e); }, law);
+}
+
+/// Isentropic bulk modulus rho c^2.
+inline double bulk_modulus(double rho, const Response& r) { return rho * r.by_density + r.pressure * r.by_energy / rho; }
+
+/// Specific internal energy at which the law gives this pressure; all laws here are linear in the energy.
+inline double energy_at(const EquationOfState& law, double rho, double pressure) {
+  const Response cold = respond(law, rho, 0.0);
+  return (pressure - cold.pressure) / cold.by_energy;
+}
+
+/// Density at which the law gives this pressure at specific energy e. Newton from `guess`.
+/// Throws std::runtime_error if the iteration does not settle.
+inline double density_at(const EquationOfState& law, double pressure, double e, double guess) {
+  double rho = guess;
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const Response r = respond(law, rho, e);
+    const double next = std::max(0.2 * rho, rho - (r.pressure - pressure) / r.by_density);
+    if (std::abs(next - rho) <= 2e-16 * rho || (iteration > 50 && std::abs(next - rho) < 1e-14 * rho)) return next;
+    rho = next;
+  }
+  throw std::runtime_error("no density of this material gives a pressure of " + std::to_string(pressure) + " Pa");
+}
+
+}  // namespace polynya::fluid

@@ -1,0 +1,143 @@
+#include "fluid_solver/fluid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fluid_solver/phases.hpp"
+
+namespace polynya::fluid {
+
+Fluid::Fluid(Grid grid_in, Setup setup_in)
+    : grid(std::move(grid_in)), setup(std::move(setup_in)), before(grid, setup.boundary), after(before) {
+  const std::size_t size = grid.size;
+  for (auto& m : material) m.mass = m.energy = m.volume = std::vector<double>(size, 0.0);
+  for (auto* arrays : {&velocity, &face_coefficient, &face_rate, &face_mass, &force, &next_velocity}) {
+    for (auto& array : *arrays) array.assign(size, 0.0);
+  }
+  for (auto* array : {&pressure, &predicted_pressure, &density, &bulk_modulus, &sound_speed, &total_mass, &node_fraction,
+                      &node_mass, &viscosity, &rate, &donor_mass}) {
+    array->assign(size, 0.0);
+  }
+  for (auto& d : donor) d.mass = d.energy = d.volume = std::vector<double>(size, 0.0);
+  row_materials.assign(static_cast<std::size_t>(grid.ny + 3) * (grid.nz + 3), 0);
+  label.assign(size, -1);
+  ambient.assign(static_cast<std::size_t>(grid.nz) + 3, {});
+}
+
+void set_ambient(Fluid& fluid, int k, const CellState& state) {
+  Ambient& layer = fluid.ambient[static_cast<std::size_t>(k)];
+  layer = {};
+  double heaviest = -1;
+  for (int m = 0; m < 2; ++m) {
+    layer.fraction[m] = state.fraction[m];
+    layer.density[m] = state.fraction[m] * state.density[m];
+    layer.energy_density[m] = layer.density[m] * state.specific_energy[m];
+    if (state.fraction[m] > heaviest) {
+      heaviest = state.fraction[m];
+      layer.pressure = respond(fluid.setup.law[m], state.density[m], state.specific_energy[m]).pressure;
+    }
+  }
+}
+
+void fill_cell(Fluid& fluid, std::ptrdiff_t cell, const CellState& state) {
+  const double free = fluid.after.volume[cell];
+  for (int m = 0; m < 2; ++m) {
+    Material& own = fluid.material[m];
+    own.volume[cell] = state.fraction[m] * free;
+    own.mass[cell] = state.fraction[m] > 0 ? state.density[m] * own.volume[cell] : 0.0;
+    own.energy[cell] = own.mass[cell] * state.specific_energy[m];
+  }
+}
+
+void finish_filling(Fluid& fluid) {
+  fluid.groups = find_groups(fluid.grid, fluid.before, fluid.after, fluid.label);
+  update_face_coefficients(fluid);
+  update_node_mass(fluid);
+  update_cell_states(fluid);
+  update_account(fluid);
+}
+
+void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<double>& value, std::vector<double>& gradient) {
+  const std::size_t count = overlap.cell.size();
+  value.assign(count, 0.0);
+  gradient.assign(count, 0.0);
+  const std::vector<double>& pressure = fluid.steps > 0 ? fluid.predicted_pressure : fluid.pressure;
+  for (std::size_t m = 0; m < count; ++m) {
+    const std::ptrdiff_t c = fluid.grid.from_message(overlap.cell[m]);
+    if (fluid.density[c] <= 0) continue;
+    value[m] = pressure[c] - fluid.setup.atmospheric_pressure;
+    gradient[m] = fluid.density[c] * fluid.setup.gravity;
+  }
+}
+
+double stable_step(const Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  const std::size_t rows = static_cast<std::size_t>(grid.ny) * grid.nz;
+  return 0.5 * compute::ordered_minimum(rows, 16, 1e300, [&](std::size_t row_number) {
+    const int j = 1 + static_cast<int>(row_number % grid.ny), k = 1 + static_cast<int>(row_number / grid.ny);
+    const std::ptrdiff_t row = grid.at(0, j, k);
+    const double thickness = std::min(grid.dy[j], grid.dz[k]);
+    const double* sound = fluid.sound_speed.data() + row;
+    const double *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row, *w = fluid.velocity[2].data() + row;
+    double least = 1e300;
+    for (int i = 1; i <= grid.nx; ++i) {
+      const double speed = sound[i] + std::sqrt(u[i] * u[i] + v[i] * v[i] + w[i] * w[i]);
+      const double step = sound[i] > 0 ? std::min(grid.dx[i], thickness) / (speed > 0 ? speed : 1.0) : 1e300;
+      least = std::min(least, step);
+    }
+    return least;
+  });
+}
+
+void update_account(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  Account& account = fluid.account;
+  account.internal = 0;
+  for (int m = 0; m < 2; ++m) {
+    const Material& own = fluid.material[m];
+    const auto sum_of = [&](const std::vector<double>& values) {
+      return row_sum(grid, 0, [&](int j, int k) {
+        const double* row = values.data() + grid.at(1, j, k);
+        double sum = 0;
+        for (int i = 0; i < grid.nx; ++i) sum += row[i];
+        return sum;
+      });
+    };
+    account.mass[m] = sum_of(own.mass);
+    account.internal += sum_of(own.energy);
+  }
+  for (int d = 0; d < 3; ++d) {
+    account.momentum[d] = row_sum(grid, 1, [&](int j, int k) {
+      const std::ptrdiff_t row = grid.at(0, j, k);
+      double sum = 0;
+      for (int n = 1; n <= grid.nx + 1; ++n) sum += fluid.node_mass[row + n] * fluid.velocity[d][row + n];
+      return sum;
+    });
+  }
+  account.kinetic = kinetic_energy(fluid, fluid.velocity);
+}
+
+double kinetic_energy(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity) {
+  const Grid& grid = fluid.grid;
+  return row_sum(grid, 1, [&](int j, int k) {
+    const std::ptrdiff_t row = grid.at(0, j, k);
+    const double *m = fluid.node_mass.data() + row, *u = velocity[0].data() + row, *v = velocity[1].data() + row, *w = velocity[2].data() + row;
+    double sum = 0;
+    for (int n = 1; n <= grid.nx + 1; ++n) sum += 0.5 * m[n] * (u[n] * u[n] + v[n] * v[n] + w[n] * w[n]);
+    return sum;
+  });
+}
+
+void update_node_mass(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  for_rows(grid, 1, [&](int j, int k) {
+    const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz;
+    const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
+    for (std::ptrdiff_t n = 1; n <= grid.nx + 1; ++n) {
+      const auto pair = [&](std::ptrdiff_t c) { return (m0[c] + m1[c]) + (m0[c - 1] + m1[c - 1]); };
+      fluid.node_mass[row + n] = 0.125 * ((pair(n) + pair(n - sy)) + (pair(n - sz) + pair(n - sy - sz)));
+    }
+  });
+}
+
+}  // namespace polynya::fluid

@@ -1,0 +1,150 @@
+#pragma once
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/compute/timer.hpp"
+#include "fluid_solver/account.hpp"
+#include "fluid_solver/cut_geometry.hpp"
+#include "fluid_solver/equation_of_state.hpp"
+#include "fluid_solver/grid.hpp"
+#include "fluid_solver/groups.hpp"
+#include "fluid_solver/overlap.hpp"
+#include "fluid_solver/pressure_equilibrium.hpp"
+
+/// Water and air on one structured grid that solids cut: a staggered Lagrange step with a conservative remap.
+/// No input or output, no transport. Order of calls: make, fill (hydrostatic or by cell), begin, then step by step.
+namespace polynya::fluid {
+
+inline constexpr int water = 0, air = 1;
+
+/// What does not change during a run.
+struct Setup {
+  std::array<EquationOfState, 2> law{MieGrueneisen{}, LinearPolynomial{}};
+  std::array<double, 2> pressure_floor{2339.0, 0.0};  ///< lower bound of the absolute pressure of each material, Pa
+  std::array<Boundary, 6> boundary{};                 ///< x-, x+, y-, y+, z-, z+
+  std::array<double, 3> ambient_velocity{};           ///< of the fluid beyond non-reflecting boundaries, m/s
+  double gravity = 0;                                 ///< m/s^2 along -z
+  double atmospheric_pressure = 101325;               ///< Pa, what gauge pressures are counted from
+};
+
+/// Extensive state of one material in every cell.
+struct Material {
+  std::vector<double> mass, energy, volume;  ///< kg, J (internal), m^3
+};
+
+/// Fluid beyond a non-reflecting boundary, by layer of the grid: what flows in, and the pressure that holds it.
+struct Ambient {
+  double pressure = 0;                                ///< at the height of the cell centre, Pa
+  std::array<double, 2> fraction{}, density{}, energy_density{};  ///< per material; kg and J per m^3 of the mixture
+};
+
+/// What a group of cells holds at the beginning of a step.
+struct GroupState {
+  Mixture content;
+  PointState point;
+  double volume = 0, height = 0;  ///< free volume, m^3, and its centre's z, m
+};
+
+struct Fluid {
+  Grid grid;
+  Setup setup;
+  CutGeometry before, after;  ///< at the beginning and the end of the current step; between steps `after` is now
+  Groups groups;              ///< of the last step
+  std::vector<GroupState> group_states;  ///< at the beginning of the last step
+  std::array<Material, 2> material;
+  std::array<std::vector<double>, 3> velocity;  ///< of nodes, m/s
+  std::vector<Ambient> ambient;                 ///< by padded k
+  Account account;
+  compute::Stopwatch watch;
+  double time = 0;
+  long steps = 0;
+
+  // Valid from the beginning of a step; kept for output and for the loads on solids.
+  std::vector<double> pressure;            ///< absolute, at the centre of the whole cell, Pa
+  std::vector<double> predicted_pressure;  ///< what the step used, with shock viscosity, Pa
+  std::vector<double> density;             ///< of the mixture, per free volume, kg/m^3
+  std::vector<double> bulk_modulus;        ///< of the mixture, 0 where water cavitates, Pa
+  std::vector<double> sound_speed;         ///< the largest of the materials present, m/s
+  std::vector<double> total_mass;          ///< of both materials, kg
+  // Working space of a step.
+  std::array<std::vector<double>, 3> face_coefficient;  ///< open area over the sum of node fractions of the face
+  std::array<std::vector<double>, 3> face_rate;         ///< volume per time through lower faces, m^3/s
+  std::array<std::vector<double>, 3> face_mass;         ///< mass through lower faces in this step, kg
+  std::array<std::vector<double>, 3> force;             ///< hourglass force of nodes, N
+  std::array<std::vector<double>, 3> next_velocity;
+  std::vector<double> node_fraction, node_mass;
+  std::vector<double> viscosity;                        ///< hourglass coefficient of cells, kg/s
+  std::vector<double> rate;                             ///< of volume, at the beginning of the step, m^3/s
+  struct Donor {
+    std::vector<double> mass, energy, volume;           ///< per Lagrangian volume
+  };
+  std::array<Donor, 2> donor;
+  std::vector<double> donor_mass;
+  std::vector<unsigned char> row_materials;             ///< bit 1 water, bit 2 air, by row (j + (ny+3)*k)
+  std::vector<std::int32_t> label;
+
+  Fluid(Grid grid, Setup setup);
+};
+
+/// State of one cell for `fill`: fraction of the free volume, density and specific energy of each material.
+struct CellState {
+  std::array<double, 2> fraction{}, density{}, specific_energy{};
+};
+
+/// Gives every cell the state that state(i, j, k) returns (padded indices from 1) and takes the layer's ambient from the
+/// first column.
+template <class StateOf>
+void fill(Fluid& fluid, const Overlap& overlap, StateOf&& state);
+/// Sets masses and energies of one cell from its state and its free volume.
+void fill_cell(Fluid& fluid, std::ptrdiff_t cell, const CellState& state);
+void set_ambient(Fluid& fluid, int k, const CellState& state);
+/// Spreads the ambient state to the ghosts that feed inflow. Called by the fillers.
+void apply_ambient(Fluid& fluid);
+/// Node masses, groups, pressures and account of a fresh state. Called by the fillers.
+void finish_filling(Fluid& fluid);
+
+/// Water below `waterline`, air above, at rest relative to each other under gravity: the discrete balance of forces holds
+/// to rounding. `velocity` is given to all nodes.
+void fill_hydrostatic(Fluid& fluid, const Overlap& overlap, double waterline, std::array<double, 3> velocity = {});
+
+/// Starts the fluid as the potential flow around the moving walls (see potential_flow.cpp) and sets the pressure that
+/// belongs to it. Call after fill_hydrostatic.
+void start_potential_flow(Fluid& fluid);
+
+/// Advances by dt to the time at which the solids are as `overlap` says. Throws FluidError at a state without meaning.
+void step(Fluid& fluid, double dt, const Overlap& overlap);
+
+/// Largest step the scheme bears: half a cell per sound speed plus flow speed, s.
+double stable_step(const Fluid& fluid);
+
+/// Gauge pressure and vertical pressure gradient (density times gravity) for the entries of an overlap, in its order:
+/// p(z) = value - gradient (z - z of the whole cell's centre). After a step: what the step did to the fluid.
+void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<double>& value, std::vector<double>& gradient);
+
+/// Refreshes pressure, density and sound speed from the state (also what a step does first).
+void update_cell_states(Fluid& fluid);
+
+/// Instantaneous entries of the account: energies, momentum, masses.
+void update_account(Fluid& fluid);
+
+struct FluidError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+template <class StateOf>
+void fill(Fluid& fluid, const Overlap& overlap, StateOf&& state) {
+  fluid.after.set(fluid.grid, fluid.setup.boundary, overlap);
+  fluid.before = fluid.after;
+  for (int k = 1; k <= fluid.grid.nz; ++k) {
+    set_ambient(fluid, k, state(1, 1, k));
+    for (int j = 1; j <= fluid.grid.ny; ++j) {
+      for (int i = 1; i <= fluid.grid.nx; ++i) fill_cell(fluid, fluid.grid.at(i, j, k), state(i, j, k));
+    }
+  }
+  apply_ambient(fluid);
+  finish_filling(fluid);
+}
+
+}  // namespace polynya::fluid

@@ -1,0 +1,66 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/compute/parallel.hpp"
+
+namespace polynya::fluid {
+
+/// A structured graded grid. One padded index space serves cells, faces and nodes, so that every kernel runs over flat
+/// rows with constant strides: cell (i,j,k), 1 <= i <= nx, has its lower x-, y- and z-face and its lower corner node at
+/// the same index. Indices 0 and n+1 (cells) are ghosts; nodes run from 1 to n+1 with ghosts 0 and n+2.
+struct Grid {
+  int nx = 0, ny = 0, nz = 0;
+  std::vector<double> x, y, z;     ///< node coordinates, n+1 each, m
+  std::vector<double> dx, dy, dz;  ///< widths by padded index (n+3; ghosts repeat their neighbour)
+  std::ptrdiff_t sy = 0, sz = 0;   ///< strides of j and k
+  std::size_t size = 0;            ///< entries of every array
+
+  /// Throws std::invalid_argument if a line has fewer than two nodes or does not increase.
+  Grid(std::vector<double> x_lines, std::vector<double> y_lines, std::vector<double> z_lines);
+
+  std::ptrdiff_t at(int i, int j, int k) const { return i + sy * j + sz * k; }
+  /// Padded index of a cell of the messages (i + nx*(j + ny*k), counted from 0).
+  std::ptrdiff_t from_message(std::int64_t cell) const;
+  std::int64_t to_message(std::ptrdiff_t cell) const;
+  /// Padded index of a face of the messages (normal 0, 1, 2; one more face than cells along its normal).
+  std::ptrdiff_t face_from_message(int normal, std::int64_t face) const;
+  void position(std::ptrdiff_t index, int& i, int& j, int& k) const {
+    k = static_cast<int>(index / sz);
+    j = static_cast<int>((index % sz) / sy);
+    i = static_cast<int>(index % sy);
+  }
+  double centre_x(int i) const { return 0.5 * (x[i - 1] + x[i]); }
+  double centre_y(int j) const { return 0.5 * (y[j - 1] + y[j]); }
+  double centre_z(int k) const { return 0.5 * (z[k - 1] + z[k]); }
+  std::size_t cells() const { return static_cast<std::size_t>(nx) * ny * nz; }
+  std::ptrdiff_t stride(int axis) const { return axis == 0 ? 1 : axis == 1 ? sy : sz; }
+  bool inside(std::ptrdiff_t cell) const {
+    int i, j, k;
+    position(cell, i, j, k);
+    return i >= 1 && i <= nx && j >= 1 && j <= ny && k >= 1 && k <= nz;
+  }
+};
+
+/// Runs body(j, k) for rows 1..ny+extra, 1..nz+extra, in fixed chunks shared among the threads.
+template <class Body>
+void for_rows(const Grid& grid, int extra, Body&& body) {
+  const std::size_t rows_y = static_cast<std::size_t>(grid.ny + extra), rows_z = static_cast<std::size_t>(grid.nz + extra);
+  compute::for_chunks(rows_y * rows_z, 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      body(1 + static_cast<int>(row % rows_y), 1 + static_cast<int>(row / rows_y));
+    }
+  });
+}
+
+/// Sum over rows of term(j, k), added in the order of the rows whatever the number of threads.
+template <class Term>
+double row_sum(const Grid& grid, int extra, Term&& term) {
+  const std::size_t rows_y = static_cast<std::size_t>(grid.ny + extra), rows_z = static_cast<std::size_t>(grid.nz + extra);
+  return compute::ordered_sum(rows_y * rows_z, 16, [&](std::size_t row) {
+    return term(1 + static_cast<int>(row % rows_y), 1 + static_cast<int>(row / rows_y));
+  });
+}
+
+}  // namespace polynya::fluid

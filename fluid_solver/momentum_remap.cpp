@@ -1,0 +1,170 @@
+// Momentum of nodes moves with the mass: the dual flux between two nodes is the mean of the face masses around the edge,
+// so the mass of a node stays an eighth of its cells'. Van Leer's limited slope away from walls, donor values near them.
+#include <algorithm>
+#include <cmath>
+
+#include "fluid_solver/phases.hpp"
+
+namespace polynya::fluid {
+namespace {
+
+constexpr double whole = 0.999;  ///< node fraction from which the slope is trusted
+
+/// Mass from node n to node n + s (axis stride s; t1, t2 the other strides).
+inline double dual_flux(const double* face_mass, std::ptrdiff_t n, std::ptrdiff_t s, std::ptrdiff_t t1, std::ptrdiff_t t2) {
+  const auto through = [&](std::ptrdiff_t c) { return face_mass[c] + face_mass[c + s]; };
+  return 0.125 * ((through(n) + through(n - t1)) + (through(n - t2) + through(n - t1 - t2)));
+}
+
+inline double limited(double a, double b) {
+  const double product = a * b;
+  return product > 0 ? 2.0 * product / (a + b) : 0.0;
+}
+
+/// Adds sign * (momentum carried over the edges from n+shift to n+shift+s) to `momentum` for n in 0..count.
+struct EdgeRow {
+  const Fluid& fluid;
+  std::ptrdiff_t row, s, t1, t2;
+  int axis;
+  bool at_lower_end, at_upper_end;  ///< the edge touches the outermost ghosts: no node beyond to take a slope from
+
+  void momentum(int first, int last, double* __restrict mx, double* __restrict my, double* __restrict mz) const {
+    const double* face_mass = fluid.face_mass[axis].data() + row;
+    const double* b = fluid.node_fraction.data() + row;
+    const double* mass = fluid.node_mass.data() + row;
+    const std::ptrdiff_t before = at_lower_end ? 0 : -s, beyond = at_upper_end ? s : 2 * s;
+    const double *u = fluid.next_velocity[0].data() + row, *v = fluid.next_velocity[1].data() + row,
+                 *w = fluid.next_velocity[2].data() + row;
+    for (std::ptrdiff_t n = first; n <= last; ++n) {
+      const double flux = dual_flux(face_mass, n, s, t1, t2);
+      const bool forward = flux >= 0;
+      const bool smooth = b[n] >= whole && b[n + s] >= whole && (forward ? b[n + before] : b[n + beyond]) >= whole;
+      const double donor_mass = forward ? mass[n] : mass[n + s];
+      const double courant = smooth ? std::abs(flux) / (donor_mass > 0 ? donor_mass : 1.0) : 1.0;
+      const double reach = smooth ? 0.5 * (1.0 - std::min(courant, 1.0)) : 0.0;
+      const auto value = [&](const double* f) {
+        const double middle = f[n + s] - f[n];
+        const double side = forward ? f[n] - f[n + before] : f[n + beyond] - f[n + s];
+        const double slope = reach * limited(middle, side);
+        return forward ? f[n] + slope : f[n + s] - slope;
+      };
+      mx[n] = flux * value(u);
+      my[n] = flux * value(v);
+      mz[n] = flux * value(w);
+    }
+  }
+};
+
+/// A node that gives away more than half its mass: it gives at the velocity of the mixture of what it has and gets.
+struct PassingNode {
+  std::ptrdiff_t node;
+  std::array<double, 3> own, donor;
+};
+
+std::vector<PassingNode> passing_nodes(const Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  std::vector<std::ptrdiff_t> candidates;
+  for (const CutGeometry* geometry : {&fluid.before, &fluid.after}) {
+    for (const WallPiece& wall : geometry->walls) {
+      for (int corner = 0; corner < 8; ++corner) {
+        candidates.push_back(wall.cell + (corner & 1) + (corner & 2 ? grid.sy : 0) + (corner & 4 ? grid.sz : 0));
+      }
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  std::vector<PassingNode> passing;
+  for (const std::ptrdiff_t n : candidates) {
+    double out = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::ptrdiff_t s = grid.stride(axis), t1 = grid.stride((axis + 1) % 3), t2 = grid.stride((axis + 2) % 3);
+      out += std::max(0.0, dual_flux(fluid.face_mass[axis].data(), n, s, t1, t2)) +
+             std::max(0.0, -dual_flux(fluid.face_mass[axis].data(), n - s, s, t1, t2));
+    }
+    if (out > 0.5 * fluid.node_mass[n]) {
+      const std::array<double, 3> own{fluid.next_velocity[0][n], fluid.next_velocity[1][n], fluid.next_velocity[2][n]};
+      passing.push_back({n, own, own});
+    }
+  }
+  return passing;
+}
+
+void iterate_donors(Fluid& fluid, std::vector<PassingNode>& passing) {
+  const Grid& grid = fluid.grid;
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    for (PassingNode& p : passing) {
+      double mass = std::max(0.0, fluid.node_mass[p.node]);
+      std::array<double, 3> momentum{mass * p.own[0], mass * p.own[1], mass * p.own[2]};
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::ptrdiff_t s = grid.stride(axis), t1 = grid.stride((axis + 1) % 3), t2 = grid.stride((axis + 2) % 3);
+        for (const int direction : {-1, 1}) {
+          const std::ptrdiff_t other = p.node + direction * s;
+          const double in = -direction * dual_flux(fluid.face_mass[axis].data(), std::min(p.node, other), s, t1, t2);
+          if (in <= 0) continue;
+          mass += in;
+          for (int d = 0; d < 3; ++d) momentum[d] += in * fluid.next_velocity[d][other];
+        }
+      }
+      if (!(mass > 0)) continue;
+      for (int d = 0; d < 3; ++d) fluid.next_velocity[d][p.node] = p.donor[d] = momentum[d] / mass;
+    }
+  }
+}
+
+void remap_row(Fluid& fluid, int j, int k, std::vector<double>& scratch) {
+  const Grid& grid = fluid.grid;
+  const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz;
+  const std::size_t width = static_cast<std::size_t>(grid.nx) + 3;
+  double* buffer[5][3];
+  for (int e = 0; e < 5; ++e) {
+    for (int d = 0; d < 3; ++d) buffer[e][d] = scratch.data() + width * static_cast<std::size_t>(3 * e + d);
+  }
+  const EdgeRow along{fluid, row, 1, sy, sz, 0, false, false};
+  const EdgeRow below_y{fluid, row - sy, sy, 1, sz, 1, j == 1, false}, above_y{fluid, row, sy, 1, sz, 1, false, j == grid.ny + 1};
+  const EdgeRow below_z{fluid, row - sz, sz, 1, sy, 2, k == 1, false}, above_z{fluid, row, sz, 1, sy, 2, false, k == grid.nz + 1};
+  along.momentum(0, grid.nx + 1, buffer[0][0], buffer[0][1], buffer[0][2]);
+  below_y.momentum(1, grid.nx + 1, buffer[1][0], buffer[1][1], buffer[1][2]);
+  above_y.momentum(1, grid.nx + 1, buffer[2][0], buffer[2][1], buffer[2][2]);
+  below_z.momentum(1, grid.nx + 1, buffer[3][0], buffer[3][1], buffer[3][2]);
+  above_z.momentum(1, grid.nx + 1, buffer[4][0], buffer[4][1], buffer[4][2]);
+  const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
+  const double* old_mass = fluid.node_mass.data() + row;
+  double* __restrict new_mass = fluid.viscosity.data() + row;  // free until the next step
+  for (std::ptrdiff_t n = 1; n <= grid.nx + 1; ++n) {
+    const auto pair = [&](std::ptrdiff_t c) { return (m0[c] + m1[c]) + (m0[c - 1] + m1[c - 1]); };
+    new_mass[n] = 0.125 * ((pair(n) + pair(n - sy)) + (pair(n - sz) + pair(n - sy - sz)));
+  }
+  for (int d = 0; d < 3; ++d) {
+    const double* u = fluid.next_velocity[d].data() + row;
+    double* __restrict out = fluid.velocity[d].data() + row;
+    const double *x = buffer[0][d], *y0 = buffer[1][d], *y1 = buffer[2][d], *z0 = buffer[3][d], *z1 = buffer[4][d];
+    for (int n = 1; n <= grid.nx + 1; ++n) {
+      const double momentum = old_mass[n] * u[n] + ((x[n - 1] - x[n]) + (y0[n] - y1[n]) + (z0[n] - z1[n]));
+      out[n] = new_mass[n] > 0 ? momentum / (new_mass[n] > 0 ? new_mass[n] : 1.0) : u[n];
+    }
+  }
+}
+
+}  // namespace
+
+void remap_momentum(Fluid& fluid) {
+  std::vector<PassingNode> passing = passing_nodes(fluid);
+  iterate_donors(fluid, passing);
+  const Grid& grid = fluid.grid;
+  const std::size_t rows_y = static_cast<std::size_t>(grid.ny) + 1, rows_z = static_cast<std::size_t>(grid.nz) + 1;
+  compute::for_chunks(rows_y * rows_z, 16, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> scratch(15 * (static_cast<std::size_t>(grid.nx) + 3));
+    for (std::size_t row = begin; row < end; ++row) {
+      remap_row(fluid, 1 + static_cast<int>(row % rows_y), 1 + static_cast<int>(row / rows_y), scratch);
+    }
+  });
+  // The rows above took the donor velocity of passing nodes for their own.
+  for (const PassingNode& p : passing) {
+    const double mass = fluid.viscosity[p.node];
+    if (!(mass > 0)) continue;
+    for (int d = 0; d < 3; ++d) fluid.velocity[d][p.node] += fluid.node_mass[p.node] * (p.own[d] - p.donor[d]) / mass;
+  }
+  std::swap(fluid.node_mass, fluid.viscosity);
+}
+
+}  // namespace polynya::fluid

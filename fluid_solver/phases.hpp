@@ -1,0 +1,64 @@
+#pragma once
+#include "fluid_solver/fluid.hpp"
+
+/// The phases of a step, in the order of step.cpp. Each lives in the file named after it.
+namespace polynya::fluid {
+
+/// Wall pieces of one step: mean area vectors, the velocity of the motion, and what the change of volume is made of.
+struct StepWall {
+  std::ptrdiff_t cell = 0;
+  std::array<std::array<double, 3>, 2> area{}, velocity{};
+  double debris_change = 0;  ///< m^3
+};
+
+/// cell_states.cpp: pressure, density, stiffness from masses, energies and the free volumes given; mixed cells are
+/// brought to pressure equilibrium.
+void evaluate_cells(Fluid& fluid, const std::vector<double>& volume);
+
+/// group_state.cpp: one state per group at the start, and the predicted pressure inside groups.
+void evaluate_groups(Fluid& fluid);
+void predict_group_pressure(Fluid& fluid, double dt);
+/// Replaces the donor values of member cells by those of their group.
+void set_group_donors(Fluid& fluid, double dt);
+/// Spreads each group's content evenly over its new volume; the mass moved is added to the face masses.
+void mix_groups(Fluid& fluid);
+
+/// face_coefficients.cpp
+std::vector<StepWall> join_walls(const CutGeometry& before, const CutGeometry& after);
+void update_face_coefficients(Fluid& fluid);
+
+/// boundaries.cpp: ghost pressures at open boundaries, ghost values for the remap, walls and their accounts.
+void set_boundary_pressure(Fluid& fluid);
+void book_boundary(Fluid& fluid, double dt, const std::vector<StepWall>& walls);
+void book_boundary_flow(Fluid& fluid, double dt);
+void copy_face_mass_to_ghosts(Fluid& fluid);
+void copy_velocity_to_ghosts(Fluid& fluid);
+void close_wall_nodes(Fluid& fluid);
+
+/// lagrange_step.cpp
+void face_rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity, std::array<std::vector<double>, 3>& rate);
+void predict_pressure(Fluid& fluid, double dt);
+void accelerate_nodes(Fluid& fluid, double dt);
+void work_and_donors(Fluid& fluid, double dt);
+/// wall_account.cpp
+void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls);
+
+/// Replaces the face rates by the means of those at the two ends of the acceleration.
+void mean_face_rates(Fluid& fluid);
+
+/// fluid.cpp
+double kinetic_energy(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity);
+void update_node_mass(Fluid& fluid);
+
+/// hourglass.cpp
+void hourglass_force(Fluid& fluid);
+
+/// remap.cpp, momentum_remap.cpp, node_fix.cpp
+void remap_cells(Fluid& fluid, double dt);
+void remap_momentum(Fluid& fluid);
+void fix_covered_nodes(Fluid& fluid);
+
+/// guard.cpp
+void check_state(const Fluid& fluid);
+
+}  // namespace polynya::fluid

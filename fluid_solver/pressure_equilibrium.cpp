@@ -1,0 +1,112 @@
+#include "fluid_solver/pressure_equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace polynya::fluid {
+namespace {
+
+struct Side {
+  double pressure, slope, bulk;  ///< slope: of the pressure with the material's own volume
+};
+
+Side side(const EquationOfState& law, double floor, double mass, double energy, double volume, double exchange_pressure) {
+  const double rho = mass / volume;
+  const Response r = respond(law, rho, energy / mass);
+  if (r.pressure <= floor) return {floor, 0.0, 0.0};
+  return {r.pressure, -rho / volume * r.by_density - exchange_pressure / mass * r.by_energy, bulk_modulus(rho, r)};
+}
+
+}  // namespace
+
+PointState point_state(const EquationOfState& law, double floor, double mass, double energy, double volume) {
+  const double rho = mass / volume;
+  const Response r = respond(law, rho, energy / mass);
+  const double bulk = std::max(0.0, bulk_modulus(rho, r));
+  return {std::max(r.pressure, floor), r.pressure > floor ? bulk : 0.0, std::sqrt(bulk / rho)};
+}
+
+PointState equilibrate(const std::array<EquationOfState, 2>& law, const std::array<double, 2>& floor, Mixture& mixture) {
+  const double total = mixture.volume[0] + mixture.volume[1];
+  // A trace that arrived without volume starts from a volume far too small rather than from none.
+  for (int m = 0; m < 2; ++m) {
+    if (mixture.volume[m] > 1e-15 * total) continue;
+    mixture.volume[m] = 1e-15 * total;
+    mixture.volume[1 - m] = total * (1.0 - 1e-15);
+  }
+  const int minor = mixture.volume[0] < mixture.volume[1] ? 0 : 1, major = 1 - minor;
+  const Mixture initial = mixture;
+  double exchange = 0;
+  {
+    const Side a = side(law[0], floor[0], initial.mass[0], initial.energy[0], initial.volume[0], 0);
+    const Side b = side(law[1], floor[1], initial.mass[1], initial.energy[1], initial.volume[1], 0);
+    exchange = std::max(0.0, a.bulk > 0 && (a.bulk < b.bulk || b.bulk == 0) ? a.pressure : b.pressure);
+  }
+  double low = 0, high = total, x = initial.volume[minor];
+  Side small{}, large{};
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    const double moved = x - initial.volume[minor];
+    mixture.volume[minor] = x;
+    mixture.volume[major] = total - x;
+    mixture.energy[minor] = initial.energy[minor] - exchange * moved;
+    mixture.energy[major] = initial.energy[major] + exchange * moved;
+    small = side(law[minor], floor[minor], mixture.mass[minor], mixture.energy[minor], x, exchange);
+    large = side(law[major], floor[major], mixture.mass[major], mixture.energy[major], total - x, exchange);
+    const double excess = small.pressure - large.pressure;
+    if (std::abs(excess) <= 1e-11 * (std::abs(small.pressure) + std::abs(large.pressure))) break;
+    (excess > 0 ? low : high) = x;
+    if (high - low <= 4e-16 * high) break;
+    const double slope = small.slope + large.slope;
+    double next = slope < 0 ? x - excess / slope : -1.0;
+    if (!(next > low && next < high)) next = low > 0 || high < total ? 0.5 * (low + high) : (excess > 0 ? std::min(2 * x, 0.5 * (x + total)) : 0.25 * x);
+    x = next;
+  }
+  PointState state;
+  double compliance = 0, weighted = 0;
+  for (int m = 0; m < 2; ++m) {
+    const PointState own = point_state(law[m], floor[m], mixture.mass[m], mixture.energy[m], mixture.volume[m]);
+    const double share = mixture.volume[m] / total / std::max(own.bulk_modulus, 1e-3 * std::max(own.pressure, 1.0));
+    compliance += share;
+    weighted += share * own.pressure;
+    state.sound_speed = std::max(state.sound_speed, own.sound_speed);
+  }
+  state.pressure = weighted / compliance;
+  state.bulk_modulus = 1.0 / compliance;
+  return state;
+}
+
+PointState settle(const std::array<EquationOfState, 2>& law, const std::array<double, 2>& floor, double volume, Mixture& mixture) {
+  const double held = mixture.volume[0] + mixture.volume[1];
+  std::array<bool, 2> active{};
+  for (int m = 0; m < 2; ++m) active[m] = mixture.mass[m] > 0 && mixture.volume[m] > dormant_fraction * held;
+  if (active[0] && active[1]) {
+    for (double& own : mixture.volume) own *= volume / held;
+    return equilibrate(law, floor, mixture);
+  }
+  const int only = active[0] ? 0 : active[1] ? 1 : mixture.mass[0] >= mixture.mass[1] ? 0 : 1;
+  mixture.volume[only] = volume;
+  mixture.volume[1 - only] = 0;
+  return point_state(law[only], floor[only], mixture.mass[only], mixture.energy[only], volume);
+}
+
+std::array<double, 2> volume_shares(const std::array<EquationOfState, 2>& law, const std::array<double, 2>& floor,
+                                    const Mixture& mixture, double change) {
+  const double total = mixture.volume[0] + mixture.volume[1];
+  if (!(mixture.volume[0] > 0) || !(mixture.mass[0] > 0)) return {0.0, 1.0};
+  if (!(mixture.volume[1] > 0) || !(mixture.mass[1] > 0)) return {1.0, 0.0};
+  const std::array<double, 2> fraction{mixture.volume[0] / total, mixture.volume[1] / total};
+  std::array<double, 2> compliance{};
+  for (int m = 0; m < 2; ++m) {
+    const PointState own = point_state(law[m], floor[m], mixture.mass[m], mixture.energy[m], mixture.volume[m]);
+    if (!(own.bulk_modulus > 0)) return fraction;
+    compliance[m] = fraction[m] / own.bulk_modulus;
+  }
+  const double first = compliance[0] / (compliance[0] + compliance[1]);
+  const std::array<double, 2> share{first, 1.0 - first};
+  for (int m = 0; m < 2; ++m) {
+    if (std::abs(share[m] * change) > 0.2 * mixture.volume[m]) return fraction;
+  }
+  return share;
+}
+
+}  // namespace polynya::fluid

@@ -1,0 +1,61 @@
+// One step, phase by phase.
+#include "fluid_solver/phases.hpp"
+
+namespace polynya::fluid {
+
+void step(Fluid& fluid, double dt, const Overlap& overlap) {
+  if (!(dt > 0)) throw std::invalid_argument("a fluid step must be longer than 0 s");
+  Account& account = fluid.account;
+  std::vector<StepWall> walls;
+  {
+    const auto lap = fluid.watch.lap("geometry");
+    std::swap(fluid.before, fluid.after);
+    fluid.after.set(fluid.grid, fluid.setup.boundary, overlap);
+    fluid.groups = find_groups(fluid.grid, fluid.before, fluid.after, fluid.label);
+    walls = join_walls(fluid.before, fluid.after);
+    update_face_coefficients(fluid);
+  }
+  {
+    const auto lap = fluid.watch.lap("equation of state");
+    evaluate_cells(fluid, fluid.before.volume);
+    evaluate_groups(fluid);
+  }
+  double kinetic_before_remap = 0;
+  {
+    const auto lap = fluid.watch.lap("lagrange");
+    face_rates(fluid, fluid.velocity, fluid.face_rate);
+    predict_pressure(fluid, dt);
+    predict_group_pressure(fluid, dt);
+    set_boundary_pressure(fluid);
+    hourglass_force(fluid);
+    accelerate_nodes(fluid, dt);
+    mean_face_rates(fluid);
+    work_and_donors(fluid, dt);
+    set_group_donors(fluid, dt);
+    book_walls(fluid, dt, walls);
+    book_boundary(fluid, dt, walls);
+    kinetic_before_remap = kinetic_energy(fluid, fluid.next_velocity);
+  }
+  {
+    const auto lap = fluid.watch.lap("remap");
+    remap_cells(fluid, dt);
+    book_boundary_flow(fluid, dt);
+    mix_groups(fluid);
+    copy_face_mass_to_ghosts(fluid);
+    copy_velocity_to_ghosts(fluid);
+    remap_momentum(fluid);
+  }
+  {
+    const auto lap = fluid.watch.lap("account");
+    const double kinetic_after_remap = kinetic_energy(fluid, fluid.velocity);
+    account.remap_loss += kinetic_before_remap - kinetic_after_remap;
+    fix_covered_nodes(fluid);
+    close_wall_nodes(fluid);
+    fluid.time += dt;
+    ++fluid.steps;
+    update_account(fluid);
+    check_state(fluid);
+  }
+}
+
+}  // namespace polynya::fluid
