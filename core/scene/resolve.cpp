@@ -109,8 +109,8 @@ Symmetry symmetry_of(const Values& values, const std::string& wish_for_effect) {
     if (name != "auto" && name != "full") values.fail("symmetry", "a tube is modelled whole; must be full");
     return Symmetry::full;
   }
-  if (name == "auto") return wish_for_effect == "off" ? Symmetry::full : Symmetry::quarter;
-  if (name != "full" && wish_for_effect == "off") values.fail("symmetry", "effects.symmetry is off; must be full");
+  if (wish_for_effect == "off") return Symmetry::full;
+  if (name == "auto") return Symmetry::quarter;
   return name == "full" ? Symmetry::full : name == "half" ? Symmetry::half : Symmetry::quarter;
 }
 

@@ -47,14 +47,12 @@ void check_end(const Values& values, const Scene& scene) {
 }  // namespace
 
 double waterline(const Values& values, const Scene& scene) {
-  double computed = 0;
-  if (scene.ice && values.has("water")) {
-    const double ratio = scene.material(scene.ice->material).value("density") /
-                         scene.material(values.text("water.material")).value("density");
-    if (ratio >= 1) values.fail("ice.material", "ice denser than the water does not float; give water.surface");
-    computed = scene.ice->lower_face + ratio * scene.ice->thickness;
-  }
-  return values.number("water.surface", computed);
+  if (const auto surface = values.given("water.surface")) return *surface;
+  if (!scene.ice || !values.has("water")) return 0;
+  const double ratio = scene.material(scene.ice->material).value("density") /
+                       scene.material(values.text("water.material")).value("density");
+  if (ratio >= 1) values.fail("ice.material", "ice denser than the water does not float; give water.surface");
+  return scene.ice->lower_face + ratio * scene.ice->thickness;
 }
 
 void read_run(const Values& values, Scene& scene) {
