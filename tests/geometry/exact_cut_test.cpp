@@ -1,0 +1,107 @@
+#include "geometry/exact_cut.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/surface_check.hpp"
+#include "shapes.hpp"
+
+using namespace polynya::geometry;
+using shapes::Shape;
+
+namespace {
+
+const GridLines grid{
+    {shapes::lines(-1.6, 1.7, 13), shapes::lines(-1.65, 1.6, 11, 0.9), shapes::lines(-1.7, 1.6, 15, 1.1)}};
+
+Shape random_body(int kind, std::mt19937& random) {
+  Shape body = kind == 0 ? shapes::sphere(2) : kind == 1 ? shapes::cylinder(24) : shapes::box(2);
+  shapes::scale_and_move(body, {0.8, 0.6, 0.7}, {0, 0, 0});
+  shapes::rotate_randomly(body, random);
+  std::uniform_real_distribution<double> uniform(-0.2, 0.2);
+  shapes::scale_and_move(body, {1, 1, 1}, {uniform(random), uniform(random), uniform(random)});
+  return body;
+}
+
+}  // namespace
+
+TEST(ExactCut, AgreesWithTheCutByColumnsInVolumeAndArea) {
+  std::mt19937 random(17);
+  Cutter cutter(grid);
+  CutCells cut;
+  for (int kind : {0, 1, 2}) {
+    const Shape body = random_body(kind, random);
+    cutter.cut(std::array{body.surface()}, cut);
+    std::vector<std::size_t> walls;
+    for (const WallPiece& piece : cut.pieces) walls.push_back(static_cast<std::size_t>(piece.entry));
+    std::ranges::sort(walls);
+    walls.erase(std::ranges::unique(walls).begin(), walls.end());
+    std::ranges::shuffle(walls, random);
+    for (std::size_t s = 0; s < 15; ++s) {
+      const std::size_t e = walls[s];
+      const ExactCell exact = exact_cut(grid, cut.cell[e], body.surface());
+      const double volume = grid.cell_volume(cut.cell[e]);
+      EXPECT_NEAR(cut.solid_volume[e] / volume, exact.volume / volume, 1e-12);
+      for (std::size_t d = 0; d < 3; ++d)
+        EXPECT_NEAR(-cut.wall_area[3 * e + d] / std::cbrt(volume * volume), exact.area[d] / std::cbrt(volume * volume),
+                    1e-12);
+    }
+  }
+}
+
+TEST(ExactCut, SampleOfTwoBodiesAgreesAndASpoiledCutIsNoticed) {
+  std::mt19937 random(23);
+  Shape ball = shapes::sphere(2), plate = shapes::box(6);
+  shapes::scale_and_move(ball, {0.4, 0.4, 0.4}, {0.11, -0.07, -0.6});
+  shapes::scale_and_move(plate, {1.65, 1.625, 0.3}, {0.05, -0.025, 0.4});
+  const std::array bodies{ball.surface(), plate.surface()};
+  Cutter cutter(grid);
+  CutCells cut;
+  cutter.cut(bodies, cut);
+  EXPECT_LT(verify_sample(cut, bodies, grid, 1, 20), 1e-12);
+  EXPECT_LT(verify_sample(cut, bodies, grid, 2, 20), 1e-12);
+  for (std::size_t e = 0; e < cut.cell.size(); ++e) cut.body_volume[2 * e] += 1e-9 * grid.cell_volume(cut.cell[e]);
+  EXPECT_NEAR(verify_sample(cut, bodies, grid, 1, 20), 1e-9, 1e-11);
+}
+
+TEST(ExactCut, CoincidentPlanesGiveTheSameVolumes) {
+  const GridLines cubes = shapes::cube_grid(1.0, 8);
+  Shape body = shapes::box(3);
+  shapes::scale_and_move(body, {0.5, 0.375, 0.25}, {0.25, 0.125, 0.0});
+  Cutter cutter(cubes);
+  CutCells cut;
+  const std::array bodies{body.surface()};
+  cutter.cut(bodies, cut);
+  EXPECT_LT(verify_sample(cut, bodies, cubes, 3, 40), 1e-13);
+}
+
+TEST(SurfaceCheck, AcceptsClosedOutwardSurfacesAndMeasuresThem) {
+  for (const Shape& body : {shapes::sphere(2), shapes::cylinder(12), shapes::box(3)}) {
+    const SurfaceCheck check = check_surface(body.positions, body.triangles);
+    EXPECT_TRUE(check.good()) << check.text;
+    EXPECT_TRUE(check.closed);
+    EXPECT_NEAR(check.volume, shapes::volume(body), 1e-12);
+  }
+}
+
+TEST(SurfaceCheck, NamesWhatIsWrong) {
+  Shape open = shapes::box();
+  open.triangles.resize(open.triangles.size() - 3);
+  EXPECT_NE(check_surface(open.positions, open.triangles).text.find("open edges"), std::string::npos);
+
+  Shape inward = shapes::box();
+  for (std::size_t t = 0; t < inward.triangles.size(); t += 3) std::swap(inward.triangles[t], inward.triangles[t + 1]);
+  const SurfaceCheck turned = check_surface(inward.positions, inward.triangles);
+  EXPECT_NE(turned.text.find("into the body"), std::string::npos);
+  EXPECT_NEAR(turned.volume, -8.0, 1e-12);
+
+  Shape twisted = shapes::box();
+  std::swap(twisted.triangles[0], twisted.triangles[1]);
+  EXPECT_FALSE(check_surface(twisted.positions, twisted.triangles).manifold);
+
+  Shape folded = shapes::sphere(2);
+  folded.positions[0] *= -1.5, folded.positions[1] *= -1.5, folded.positions[2] *= -1.5;
+  EXPECT_TRUE(check_surface(folded.positions, folded.triangles).self_intersects);
+}
