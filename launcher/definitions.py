@@ -46,12 +46,24 @@ def filtered_deceleration(time: numpy.ndarray, speed: numpy.ndarray, frequency: 
     """
     if len(time) < 8 or frequency <= 0:
         return raw_deceleration(time, speed)
-    duration = time[-1] - time[0]
-    samples = min(MOST_SAMPLES, int(numpy.ceil(duration / numpy.diff(time).min())) + 1)
-    even = numpy.linspace(time[0], time[-1], samples)
-    rate = (samples - 1) / duration
+    even, rate = even_times(time)
     deceleration = -numpy.gradient(numpy.interp(even, time, speed), even)
     return numpy.interp(time, even, low_pass(deceleration, rate, frequency))
+
+
+def filtered(time: numpy.ndarray, values: numpy.ndarray, frequency: float) -> numpy.ndarray:
+    """Any column through the same filter, at the given times (strictly increasing)."""
+    if len(time) < 8 or frequency <= 0:
+        return values.copy()
+    even, rate = even_times(time)
+    return numpy.interp(time, even, low_pass(numpy.interp(even, time, values), rate, frequency))
+
+
+def even_times(time: numpy.ndarray) -> tuple[numpy.ndarray, float]:
+    """Even times at the shortest distance of the given ones, and how many there are per second."""
+    duration = time[-1] - time[0]
+    samples = min(MOST_SAMPLES, int(numpy.ceil(duration / numpy.diff(time).min())) + 1)
+    return numpy.linspace(time[0], time[-1], samples), (samples - 1) / duration
 
 
 def low_pass(values: numpy.ndarray, rate: float, frequency: float) -> numpy.ndarray:
@@ -70,14 +82,14 @@ def first_contact(time: numpy.ndarray, contact_force: numpy.ndarray) -> float | 
     return float(time[touching[0]]) if len(touching) else None
 
 
-def through(time: numpy.ndarray, filtered: numpy.ndarray, peak: float) -> float | None:
+def through(time: numpy.ndarray, smooth: numpy.ndarray, peak: float) -> float | None:
     """When the filtered deceleration falls below 2 % of its peak for good; None if it never does before the end."""
     threshold = STAYS_BELOW * peak
-    above = numpy.flatnonzero(filtered >= threshold)
+    above = numpy.flatnonzero(smooth >= threshold)
     if peak <= 0 or not len(above) or above[-1] == len(time) - 1:
         return None
     i = above[-1]
-    share = (filtered[i] - threshold) / (filtered[i] - filtered[i + 1])
+    share = (smooth[i] - threshold) / (smooth[i] - smooth[i + 1])
     return float(time[i] + share * (time[i + 1] - time[i]))
 
 
@@ -106,15 +118,15 @@ def passage(time: numpy.ndarray, speed: numpy.ndarray, frequency: float, *, cont
     contact = None if contact_force is None else first_contact(time, contact_force)
     if contact is None:
         return Passage(initial, float(speed[-1]), "end")
-    filtered = filtered_deceleration(time, speed, frequency)
-    peak = float(filtered[time >= contact].max())
-    through_time = through(time, filtered, peak)
+    smooth = filtered_deceleration(time, speed, frequency)
+    peak = float(smooth[time >= contact].max())
+    through_time = through(time, smooth, peak)
     clear = None
     if shoulder is not None and upper_face is not None:
         clear = first_crossing(time, shoulder, upper_face)
 
     until, end = "end", float(time[-1])
-    if through_time is not None and through_time > contact:
+    if through_time is not None:
         until, end = "through_time", through_time
     elif clear is not None and clear > contact:
         until, end = "shoulder_clear_time", clear

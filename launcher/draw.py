@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy
 
-from launcher import draw_curves, draw_fields, draw_series, fields, style
+from launcher import draw_curves, draw_fields, draw_series, fields, sections, style
 from launcher.run_folder import read_json
 from launcher.scene import participants
 from launcher.series import read_series
-from launcher.summary import series_path
+from launcher.summary import progress
 
 SHEET = 6  # moments on a sheet
 
@@ -36,12 +36,13 @@ def draw_run(run: Path) -> tuple[list[Path], list[str]]:
 def jobs(run: Path, scene: dict, summary: dict, folder: Path) -> Iterator[tuple[str, Callable]]:
     """Name and drawing function of each picture that may exist for this run."""
     names = participants(scene)
-    series = read_series(series_path(run, names))
+    series = progress(run, names)
     if series and series.has("vehicle_speed"):
+        series = series.ordered("vehicle_speed")
         yield "motion", lambda: draw_curves.draw_motion(scene, summary, series, folder / "motion.png")
         yield "energies", lambda: draw_curves.draw_energies(scene, summary, series, folder / "energies.png")
     elif series:
-        yield "series", lambda: draw_series.draw_columns(scene, series, folder / "series.png")
+        yield "series", lambda: draw_series.draw_columns(scene, series.ordered(), folder / "series.png")
     tube = read_series(run / "series" / "tube.csv")
     if tube:
         yield "tube", lambda: draw_series.draw_profiles(scene, tube, folder / "tube.png")
@@ -55,20 +56,21 @@ def draw_cuts(run: Path, scene: dict, summary: dict, folder: Path) -> list[Path]
     if not len(times):
         return []
     tolerance = 0.51 * float(numpy.median(numpy.diff(times))) if len(times) > 1 else numpy.inf
-    sections = [draw_fields.load_section(run, time, tolerance) for time in choose(times, summary)]
-    view = draw_fields.make_view(scene, sections)
-    pictures = [draw_fields.draw_sheet(sections, view, folder / "cuts.png", "materials")]
+    shown = [sections.load_section(run, time, tolerance) for time in choose(times, summary)]
+    view = sections.make_view(scene, shown)
+    pictures = [draw_fields.draw_sheet(shown, view, folder / "cuts.png", "materials")]
     if view.pressure:
-        pictures.append(draw_fields.draw_sheet(sections, view, folder / "pressure.png", "pressure"))
-    if len(sections) > 1:
-        whole = draw_fields.whole_view(view, sections[-1])
-        pictures.append(draw_fields.draw_sheet(sections[-1:], whole, folder / "last_cut.png", "materials"))
+        pictures.append(draw_fields.draw_sheet(shown, view, folder / "pressure.png", "pressure"))
+    if len(shown) > 1:
+        whole = sections.whole_view(view, shown[-1])
+        pictures.append(draw_fields.draw_sheet(shown[-1:], whole, folder / "last_cut.png", "materials"))
     return pictures
 
 
 def frame_times(run: Path) -> numpy.ndarray:
-    names = ("vehicle", "ice", "fluid")
-    return numpy.unique([moment.time for name in names for moment in fields.moments(run, name)])
+    """Of the part with the most frames: two parts may end a frame a step apart."""
+    by_part = [[moment.time for moment in fields.moments(run, name)] for name in ("ice", "vehicle", "fluid")]
+    return numpy.array(max(by_part, key=len))
 
 
 def choose(times: numpy.ndarray, summary: dict) -> list[float]:

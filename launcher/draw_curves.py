@@ -94,22 +94,31 @@ def deceleration_panel(ax: pyplot.Axes, scene: dict, summary: dict, series: Seri
     factor, label = (1e-3, "deceleration  [10³ m/s²]") if abs(filtered).max() > 1e3 else (1, "deceleration  [m/s²]")
     ax.plot(time * MILLI, raw * factor, color="#b9b9b9", lw=0.6, label="raw")
     ax.plot(time * MILLI, filtered * factor, color=style.VERMILION, label=f"filtered, {frequency / 1e3:g} kHz")
-    # The raw curve may spike far beyond what matters: the filtered one sets the range.
-    low, high = filtered.min() * factor, filtered.max() * factor
-    room = 0.35 * max(high - low, 1e-12)
-    ax.set_ylim(max(low - room, (raw * factor).min() - 0.1 * room), min(high + room, (raw * factor).max() + 0.3 * room))
+    limit_to(ax, filtered * factor, raw * factor)
     ax.set_ylabel(label)
     ax.legend(loc="upper right", ncols=2)
 
 
-def force_panel(ax: pyplot.Axes, _scene: dict, _summary: dict, series: Series) -> None:
+def force_panel(ax: pyplot.Axes, scene: dict, _summary: dict, series: Series) -> None:
+    """Contact is a rattle of short blows: the filtered force over the raw one, as for the deceleration."""
     shown = [(name, label, color) for name, label, color in (
         ("contact_force", "ice", style.ORANGE), ("fluid_force", "water and air", style.GREEN)) if series.has(name)]
-    factor, prefix = style.scale(max(numpy.nanmax(abs(series[name])) for name, _, _ in shown))
+    time, frequency = series["time"], scene["run"]["filter_frequency"]
+    smooth = {name: definitions.filtered(time, numpy.nan_to_num(series[name]), frequency) for name, _, _ in shown}
+    factor, prefix = style.scale(max(abs(values).max() for values in smooth.values()))
     for name, label, color in shown:
-        ax.plot(series["time"] * MILLI, series[name] * factor, color=color, lw=1.2, label=label)
+        ax.plot(time * MILLI, series[name] * factor, color=color, lw=0.4, alpha=0.35)
+        ax.plot(time * MILLI, smooth[name] * factor, color=color, lw=1.4, label=label)
+    limit_to(ax, numpy.array(list(smooth.values())) * factor, numpy.array([series[name] for name, *_ in shown]) * factor)
     ax.set_ylabel(f"force on vehicle  [{prefix}N]")
     ax.legend(loc="upper right", ncols=2)
+
+
+def limit_to(ax: pyplot.Axes, smooth: numpy.ndarray, raw: numpy.ndarray) -> None:
+    """The raw curve may spike far beyond what matters: the filtered one sets the range."""
+    low, high = smooth.min(), smooth.max()
+    room = 0.35 * max(high - low, 1e-12)
+    ax.set_ylim(max(low - room, numpy.nanmin(raw) - 0.1 * room), min(high + room, numpy.nanmax(raw) + 0.3 * room))
 
 
 def stress_panel(ax: pyplot.Axes, _scene: dict, _summary: dict, series: Series) -> None:

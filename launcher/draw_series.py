@@ -10,6 +10,8 @@ from launcher import style
 from launcher.draw_curves import MILLI, finish, save
 from launcher.series import Series
 
+SCALED = ("Pa", "J", "N", "m", "s", "Hz")  # units that take a prefix; "km/s" or "mkg" would not read well
+
 
 def draw_columns(scene: dict, series: Series, path: Path) -> Path | None:
     """The series of a solver that runs alone: one panel per unit, whatever the columns are."""
@@ -22,7 +24,7 @@ def draw_columns(scene: dict, series: Series, path: Path) -> Path | None:
         return None
     figure, axes = pyplot.subplots(len(groups), 1, figsize=(7.4, 0.9 + 1.75 * len(groups)), sharex=True, squeeze=False)
     for ax, (unit, names) in zip(axes[:, 0], groups.items()):
-        factor, prefix = style.scale(max(numpy.nanmax(abs(series[name])) for name in names)) if unit else (1.0, "")
+        factor, prefix = style.scale(max(numpy.nanmax(abs(series[name])) for name in names)) if unit in SCALED else (1.0, "")
         for name in names:
             ax.plot(series[abscissa] * MILLI, series[name] * factor, label=name.replace("_", " "), lw=1.2)
         ax.set_ylabel(f"[{prefix}{unit}]" if unit else "")
@@ -41,11 +43,13 @@ def draw_profiles(scene: dict, series: Series, path: Path) -> Path | None:
         return None
     figure, axes = pyplot.subplots(len(plain), 1, figsize=(7.4, 0.9 + 1.9 * len(plain)), sharex=True, squeeze=False)
     for ax, name in zip(axes[:, 0], plain):
+        unit = series.units[name].replace("^2", "²").replace("^3", "³")
+        factor, prefix = style.scale(numpy.nanmax(abs(series[name]))) if unit in SCALED else (1.0, "")
         if name in exact:
-            ax.plot(series[abscissa], series[exact[name]], color=style.INK, lw=1.0, label="exact")
-        ax.plot(series[abscissa], series[name], ".", ms=3.2, color=style.VERMILION, label="computed")
-        unit = series.units[name]
-        ax.set_ylabel(name.replace("_", " ") + (f"  [{unit}]" if unit else ""))
+            ax.plot(series[abscissa], series[exact[name]] * factor, color=style.INK, lw=1.0, label="exact")
+        ax.plot(series[abscissa], series[name] * factor, ".", ms=3.2, color=style.VERMILION, label="computed")
+        ax.set_ylabel(name.replace("_", " ") + (f"  [{prefix}{unit}]" if unit else ""))
+        ax.margins(x=0)
     axes[0, 0].legend(loc="best")
     axes[-1, 0].set_xlabel(f"{abscissa}  [{series.units[abscissa]}]")
     height = figure.get_size_inches()[1]

@@ -60,10 +60,9 @@ class LiveLine:
         words = [f"t {units.readable(row.get('time', 0.0), 's')}"]
         if "window" in row:
             words.append(f"window {row['window']:.0f}")
-        elif "step" in row:
-            words.append(f"step {row['step']:.0f}")
-        if "vehicle_speed" in row:
-            words.append(f"{row['vehicle_speed']:.2f} m/s")
+        speed = row.get("vehicle_speed", row.get("speed_z"))
+        if speed is not None:
+            words.append(f"{speed:.2f} m/s")
         if math.isfinite(row.get("energy_error", math.nan)):
             words.append(f"energy error {100 * row['energy_error']:.2g} %")
         if share and passed > 2:

@@ -22,6 +22,9 @@ HEALTH = (("energy error", "energy_error", "%"), ("momentum error", "momentum_er
           ("fluid cells", "cells", "n"), ("elements", "elements", "n"), ("converted", "converted_elements", "n"),
           ("particles", "particles", "n"), ("wall time", "wall_time", "wall"))
 
+NOT_SHOWN = {"end_time", "filter_frequency", "shoulder_clear_speed", "windows", "spans", "overlap_cuts",
+             "largest_energy_error", "largest_momentum_error", "deepest_contact", "peak_wall_pressure"}
+
 
 def value(summary: dict, key: str, unit: str) -> str:
     number = summary.get(key)
@@ -53,6 +56,18 @@ def two_columns(summary: dict) -> Table:
         for rows in known:
             cells += [rows[i][0], value(summary, *rows[i][1:])] if i < len(rows) else ["", ""]
         table.add_row(*cells)
+    return table
+
+
+def other_findings(summary: dict) -> Table:
+    """Numbers that a solver reports on its own account, as the beam and the tube do: by their names, in SI."""
+    known = {row[1] for row in MOTION + HEALTH} | NOT_SHOWN
+    table = Table(box=None, show_header=False, padding=(0, 2, 0, 0))
+    table.add_column(style="dim")
+    table.add_column(style="bold", justify="right")
+    for key, found in summary.items():
+        if key not in known and isinstance(found, (int, float)) and not isinstance(found, bool):
+            table.add_row(key.replace("_", " "), units.number(found, 4))
     return table
 
 
@@ -88,6 +103,9 @@ def print_summary(summary: dict, pictures: list[Path]) -> None:
     if summary.get("end_reason"):
         console.print(f"[dim]ended at {units.readable(summary.get('end_time'), 's')}: {summary['end_reason']}[/]")
     console.print(Padding(two_columns(summary), (1, 0)))
+    others = other_findings(summary)
+    if others.row_count:
+        console.print(others)
     console.print(process_table(summary["processes"]))
     console.print(f"[dim]results[/]   {summary['run']}", soft_wrap=True)
     for picture in pictures:

@@ -26,11 +26,24 @@ class Series:
     def __getitem__(self, name: str) -> numpy.ndarray:
         return self.columns[name]
 
+    def renamed(self, names: dict[str, str]) -> Series:
+        """The same columns, those in `names` under their new name."""
+        return Series({names.get(name, name): values for name, values in self.columns.items()},
+                      {names.get(name, name): unit for name, unit in self.units.items()})
+
     def last(self, name: str) -> float | None:
         """The last finite value of a column; None where there is none."""
         values = self.columns.get(name, numpy.empty(0))
         finite = values[numpy.isfinite(values)]
         return float(finite[-1]) if len(finite) else None
+
+    def ordered(self, *needed: str) -> Series:
+        """Only rows with numbers in the needed columns and with times (first column) later than all before."""
+        first = next(iter(self.columns))
+        good = numpy.logical_and.reduce([numpy.isfinite(self.columns[name]) for name in (first, *needed)])
+        latest = numpy.maximum.accumulate(numpy.where(good, self.columns[first], -numpy.inf))
+        good[1:] &= self.columns[first][1:] > latest[:-1]
+        return Series({name: values[good] for name, values in self.columns.items()}, self.units)
 
 
 def parse_header(line: str) -> tuple[list[str], list[str]]:

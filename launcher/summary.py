@@ -28,7 +28,10 @@ MEASURED = {
     "steps": ("window", "last"),
 }
 NEED_ICE = ("broken_ice_mass", "converted_elements", "particles")
+VEHICLE_ALONE = {"speed_z": "vehicle_speed", "centre_of_mass_z": "vehicle_position", "kinetic": "vehicle_kinetic",
+                 "internal": "vehicle_internal"}
 COUNTS = ("converted_elements", "particles", "cells", "elements", "steps")
+OF_ALL = ("cells", "elements")  # added up over the processes
 PASSAGE = tuple(definitions.Passage.__dataclass_fields__)
 
 
@@ -37,44 +40,47 @@ def series_path(folder: Path, names: list[str]) -> Path:
     return folder / "series" / ("coupler.csv" if len(names) > 1 else f"{names[0]}.csv")
 
 
+def progress(folder: Path, names: list[str]) -> Series | None:
+    """The series of the run; the names that the vehicle's solver has for its motion become the coupler's."""
+    series = read_series(series_path(folder, names))
+    return series.renamed(VEHICLE_ALONE) if series and names == ["structure"] else series
+
+
 def passage_of(scene: dict, series: Series | None) -> definitions.Passage | None:
     """The quantities of the passage; None without a vehicle or without its speed in the series."""
     vehicle, ice = scene.get("vehicle"), scene.get("ice")
     if not vehicle or series is None or not series.has("time", "vehicle_speed"):
         return None
+    series = series.ordered("vehicle_speed")
     time, speed = series["time"], series["vehicle_speed"]
-    good = usable(time, speed)
-    time, speed = time[good], speed[good]
     if not len(time):
         return None
     shoulder = upper_face = None
     if ice and series.has("vehicle_position"):
-        nose = definitions.nose_position(time, series["vehicle_position"][good], speed, vehicle["nose_position"])
+        nose = definitions.nose_position(time, series["vehicle_position"], speed, vehicle["nose_position"])
         shoulder, upper_face = nose - vehicle["head_length"], ice["lower_face"] + ice["thickness"]
-    force = series["contact_force"][good] if ice and series.has("contact_force") else None
+    force = series["contact_force"] if ice and series.has("contact_force") else None
     return definitions.passage(time, speed, scene["run"]["filter_frequency"], contact_force=force, shoulder=shoulder,
                                upper_face=upper_face, initial_speed=vehicle.get("speed"))
 
 
-def usable(time: numpy.ndarray, speed: numpy.ndarray) -> numpy.ndarray:
-    """Rows with numbers in them whose times increase (the row of a common time may be written twice)."""
-    finite = numpy.isfinite(time) & numpy.isfinite(speed)
-    latest = numpy.maximum.accumulate(numpy.where(finite, time, -numpy.inf))
-    newer = numpy.concatenate(([True], time[1:] > latest[:-1])) if len(time) else finite
-    return finite & newer
-
-
-def measured(found: dict, series: Series | None, has_ice: bool) -> dict:
+def measured(found: dict, series: Series | None, processes: dict[str, dict], has_ice: bool) -> dict:
     """What the processes measured, else the series; None where there is nothing to measure."""
+    sources = [found, *(words for words in (found.get("participants") or {}).values() if isinstance(words, dict))]
+    counts = [report.get("counts") or {} for report in processes.values()]
     values = {}
-    words = [word for word in (found.get("participants") or {}).values() if isinstance(word, dict)]
     for key, (column, which) in MEASURED.items():
-        value = next((source[key] for source in (found, *words) if source.get(key) is not None), None)
+        value = next((source[key] for source in sources if source.get(key) is not None), None)
+        if key in OF_ALL and key not in found:
+            parts = [count[key] for count in counts if key in count]
+            value = sum(parts) if parts else value
         if value is None and series is not None and column and series.has(column):
             value = series.last(column) if which == "last" else largest(series, column)
         if key in COUNTS and isinstance(value, float) and math.isfinite(value):
             value = int(value)
         values[key] = None if key in NEED_ICE and not has_ice else value
+    if values["steps"] is None and len(processes) == 1:
+        values["steps"] = next((int(count["steps"]) for count in counts if "steps" in count), None)
     return values
 
 
@@ -103,7 +109,7 @@ def merge(folder: Path, scene: dict, names: list[str], outcome: Outcome, wall_ti
     """Writes RUN/summary.json and returns it. All in SI; the keys are there whatever happened, without meaning: null."""
     speaker = "coupler" if len(names) > 1 else names[0]
     found = read_json(folder / f"{speaker}_summary.json")
-    series = read_series(series_path(folder, names))
+    series = progress(folder, names)
     passage = passage_of(scene, series)
     processes = process_reports(folder, outcome)
     summary = {
@@ -115,7 +121,7 @@ def merge(folder: Path, scene: dict, names: list[str], outcome: Outcome, wall_ti
         "end_time": found.get("end_time", series.last("time") if series else None),
         **(asdict(passage) if passage else dict.fromkeys(PASSAGE)),
         "filter_frequency": (scene.get("run") or {}).get("filter_frequency"),
-        **measured(found, series, bool(scene.get("ice"))),
+        **measured(found, series, processes, bool(scene.get("ice"))),
         "wall_time": wall_time,
         "processes": processes,
         "effects": effect_reports(scene, found, processes),

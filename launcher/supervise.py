@@ -14,16 +14,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from launcher import WRONG_INPUT, FAILED, Failure
-from launcher.processes import Plan
+from launcher.processes import PROGRAMS, Plan
 
 TICK = 0.2            # s between two looks at the series
 GRACE = 0.4           # s after the first failure in which a better explanation may still arrive
-UNTIL_KILLED = 3.0    # s between SIGTERM and SIGKILL
+UNTIL_KILLED = 2.0    # s between SIGTERM and SIGKILL
 UNTIL_MISSED = 60.0   # s that a solver may write results after the coupler has ended
 PR_SET_PDEATHSIG = 1
 LIBC = ctypes.CDLL(None, use_errno=True)
 # Sentences of a process that fails only because another one did.
-SECONDARY = re.compile(r"\b(lost|vanished|stopped|missing|refused|disconnected|gone|timed out)\b", re.IGNORECASE)
+SECONDARY = re.compile(r"\b(lost|vanished|stopped|missing|refused|disconnected|gone|timed out|closed the connection|no coupler)\b", re.IGNORECASE)
 LOG_PREFIX = re.compile(r"^(\[[^\]]*\]\s*)+")
 
 
@@ -65,7 +65,12 @@ class Child:
             file.seek(max(0, os.path.getsize(self.stderr) - 4096))
             lines = [line.strip() for line in file.read().decode("utf-8", "replace").splitlines()]
         words = next((line for line in reversed(lines) if line), "")
-        return LOG_PREFIX.sub("", words).removeprefix(f"{self.name}: ")
+        return LOG_PREFIX.sub("", words).removeprefix(f"{self.name}: ").removeprefix(f"{PROGRAMS[self.name]}: ")
+
+    def complains_about_others(self) -> bool:
+        """Failed only because another did: it says so, names another first, or was told to stop and says nothing."""
+        words = self.last_words()
+        return not words or bool(SECONDARY.search(words)) or any(words.startswith(f"{name}:") for name in PROGRAMS)
 
     def why(self) -> str:
         words = self.last_words()
@@ -191,5 +196,5 @@ def suspicion(child: Child) -> tuple:
     elif child.status == WRONG_INPUT:
         rank = 1
     else:
-        rank = 3 if SECONDARY.search(child.last_words()) else 2
+        rank = 3 if child.complains_about_others() else 2
     return rank, child.order
