@@ -74,16 +74,21 @@ MeshQuality measure_quality(const continuum::HexMesh& mesh) {
           std::min(quality.least_scaled_jacobian, dot(cross(a, b), d) / (norm(a) * norm(b) * norm(d)));
     }
     const double element_volume = volume(c);
-    quality.volume += element_volume;
     quality.smallest_height = std::min(quality.smallest_height, element_volume / largest_face(c));
   }
+  quality.volume = mesh_volume(mesh);
   return quality;
 }
 
 double mesh_volume(const continuum::HexMesh& mesh) {
-  double sum = 0;
-  for (std::size_t e = 0; e < mesh.elements.size() / 8; ++e) sum += volume(corners_of(mesh, e));
-  return sum;
+  // Compensated (Neumaier): a wall is sought until this sum agrees with a mass to rounding.
+  double sum = 0, lost = 0;
+  for (std::size_t e = 0; e < mesh.elements.size() / 8; ++e) {
+    const double term = volume(corners_of(mesh, e)), next = sum + term;
+    lost += std::abs(sum) >= std::abs(term) ? (sum - next) + term : (term - next) + sum;
+    sum = next;
+  }
+  return sum + lost;
 }
 
 }  // namespace polynya::geometry

@@ -1,0 +1,124 @@
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "core/exchange/errors.hpp"
+#include "structure_solver/conversation.hpp"
+
+namespace polynya::structure {
+namespace {
+
+std::int64_t rows(std::size_t count) { return static_cast<std::int64_t>(count); }
+
+void add_motion(exchange::Message& message, const VehicleBody& body) {
+  const std::size_t n = body.hull_vertices();
+  std::vector<double> positions(3 * n), velocities(3 * n);
+  body.hull_motion(positions, velocities);
+  message.add<double>("positions", {rows(n), 3}, positions);
+  message.add<double>("velocities", {rows(n), 3}, velocities);
+}
+
+void add_account(exchange::Message& message, const Account& account) {
+  const auto values = account_values(account);
+  message.add<double>("account", {rows(values.size())}, values);
+}
+
+exchange::Message make_ready(const BuiltVehicle& vehicle, const Account& account) {
+  exchange::Message ready("ready");
+  ready.header["role"] = "solid";
+  ready.header["body"] = "vehicle";
+  ready.header["stable_step"] = vehicle.body->stable_step();
+  for (const AccountEntry& entry : account_entries) ready.header["account"].push_back(std::string(entry.name));
+  add_account(ready, account);
+  const std::size_t n = vehicle.mesh.hull_nodes.size();
+  std::vector<std::int64_t> ids(vehicle.mesh.hull_nodes.begin(), vehicle.mesh.hull_nodes.end());
+  std::vector<double> masses;
+  for (const std::int32_t node : vehicle.mesh.hull_nodes) masses.push_back(vehicle.node_masses[node]);
+  const std::vector<double> zeros(n, 0.0);
+  ready.add<std::int64_t>("surface.ids", {rows(n)}, ids);
+  ready.add<double>("surface.masses", {rows(n)}, masses);
+  ready.add<std::int32_t>("surface.triangles", {rows(vehicle.mesh.hull_triangles.size() / 3), 3},
+                          vehicle.mesh.hull_triangles);
+  ready.add<double>("surface.radius", {rows(n)}, zeros);
+  ready.add<double>("surface.volume", {rows(n)}, zeros);
+  add_motion(ready, *vehicle.body);
+  return ready;
+}
+
+/// Spreads the loads of a message over all hull vertices.
+void read_loads(const exchange::Message& loads, std::vector<double>& hull_force) {
+  std::fill(hull_force.begin(), hull_force.end(), 0.0);
+  const auto vertices = loads.view<std::int64_t>("load.vertices");
+  const auto forces = loads.view<double>("load.forces");
+  if (forces.size() != 3 * vertices.size())
+    throw exchange::ProtocolError("message 'loads': array 'load.forces' does not hold three values per vertex");
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (vertices[i] < 0 || 3 * static_cast<std::size_t>(vertices[i]) >= hull_force.size())
+      throw exchange::ProtocolError("message 'loads': array 'load.vertices' names vertex " +
+                                    std::to_string(vertices[i]) + ", the hull has " +
+                                    std::to_string(hull_force.size() / 3));
+    for (int c = 0; c < 3; ++c) hull_force[3 * vertices[i] + c] += forces[3 * i + c];
+  }
+}
+
+exchange::Message make_surface(long window, double time, const VehicleBody& body, const Account& account) {
+  exchange::Message surface("surface");
+  surface.header["window"] = window;
+  surface.header["time"] = time;
+  surface.header["stable_step"] = body.stable_step();
+  surface.header["topology_changed"] = false;
+  add_motion(surface, body);
+  add_account(surface, account);
+  return surface;
+}
+
+double positive_step(const exchange::Message& message, const char* key) {
+  const double step = message.header.value(key, 0.0);
+  if (!(step > 0))
+    throw exchange::ProtocolError("message '" + message.kind() + "': header '" + key + "' must be a positive number");
+  return step;
+}
+
+}  // namespace
+
+void run_coupled(BuiltVehicle& vehicle, exchange::Participant& coupler, Output& output) {
+  VehicleBody& body = *vehicle.body;
+  Account account = body.account();
+  coupler.send(make_ready(vehicle, account));
+  const exchange::Message begin = coupler.receive("begin");
+  double time = begin.header.value("time", 0.0), dt = positive_step(begin, "step");
+  std::vector<double> hull_force(3 * body.hull_vertices());
+  body.internal_forces(0);
+  body.finish_step({}, 0, dt);
+  account = body.account();
+
+  for (long window = 0;; ++window) {
+    body.advance_positions(dt);
+    time += dt;
+    coupler.send(make_surface(window, time, body, account));
+    {
+      const auto lap = output.watch().lap("internal_forces");
+      body.internal_forces(dt);
+    }
+    const exchange::Message loads = coupler.receive("loads");
+    read_loads(loads, hull_force);
+    const bool finish = loads.header.value("finish", false);
+    const double next = finish ? loads.header.value("next_step", dt) : positive_step(loads, "next_step");
+    {
+      const auto lap = output.watch().lap("finish_step");
+      body.finish_step(hull_force, dt, next);
+      account = body.account();
+    }
+    output.record(time, dt, account);
+    if (const int frame = loads.header.value("frame", -1); frame >= 0) output.write_frame(frame, time);
+    dt = next;
+    if (finish) break;
+  }
+  exchange::Message finished("finished");
+  finished.header.update(output.summary());
+  coupler.send(finished);
+  coupler.receive("bye");
+  spdlog::info("finished: {}", output.summary().dump());
+}
+
+}  // namespace polynya::structure

@@ -1,0 +1,11 @@
+#pragma once
+#include "core/exchange/participant.hpp"
+#include "structure_solver/build_vehicle.hpp"
+#include "structure_solver/output.hpp"
+
+namespace polynya::structure {
+
+/// Coupled: windows as docs/protocol.md says, until the coupler says `finish`. Throws what Participant throws.
+void run_coupled(BuiltVehicle& vehicle, exchange::Participant& coupler, Output& output);
+
+}  // namespace polynya::structure

@@ -1,0 +1,107 @@
+#include <omp.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <optional>
+
+#include "core/exchange/environment.hpp"
+#include "structure_solver/conversation.hpp"
+#include "structure_solver/free_flight.hpp"
+
+namespace {
+
+using namespace polynya;
+
+struct Options {
+  std::string scene, out, endpoint, run, name = "structure";
+  int threads = 0;
+};
+
+/// Reads the command line; a value means that the process ends with this exit code.
+std::optional<int> parse(int argc, char** argv, Options& options) {
+  CLI::App app{"Moves the vehicle: elastic finite elements or a rigid body. Without --connect: free flight."};
+  app.add_option("--scene", options.scene, "resolved scene (RUN/scene.json)")->required();
+  app.add_option("--out", options.out, "run folder")->required();
+  auto* connect = app.add_option("--connect", options.endpoint, "the coupler's endpoint");
+  app.add_option("--run", options.run, "identity of the run, the coupler's")->needs(connect);
+  app.add_option("--name", options.name, "name under which the coupler expects this process");
+  app.add_option("--threads", options.threads, "threads to use; 0: as many as OpenMP offers")->check(CLI::NonNegativeNumber);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (options.threads > 0) omp_set_num_threads(options.threads);
+  return {};
+}
+
+void start_log(const Options& options) {
+  auto logger = spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", true);
+  logger->flush_on(spdlog::level::info);
+  spdlog::set_default_logger(logger);
+}
+
+void describe(const structure::BuiltVehicle& v) {
+  spdlog::info("mesh: {} elements, {} nodes, {} hull triangles, {} element(s) through the wall or around the core",
+               v.mesh.hexahedra.element_count(), v.mesh.hexahedra.node_count(), v.mesh.hull_triangles.size() / 3,
+               v.mesh.layers);
+  spdlog::info("quality: scaled Jacobian >= {:.3f}, aspect <= {:.2f}, edge >= {:.4f} mm, stable step {:.3e} s",
+               v.quality.least_scaled_jacobian, v.quality.greatest_aspect, v.quality.smallest_edge * 1e3,
+               v.body->stable_step());
+  spdlog::info("mass: {:.9g} kg modelled, {:.9g} kg in all, wall {:.4f} mm, density {:.2f} kg/m^3. {}", v.mass,
+               v.whole_mass, v.mesh.wall_thickness * 1e3, v.density, v.mass_note);
+}
+
+void run(const Options& options, const scene::Scene& scene, structure::BuiltVehicle& vehicle) {
+  structure::Output output(options.out, options.name, scene.run.end_time, vehicle);
+  if (options.endpoint.empty()) {
+    structure::run_free_flight(vehicle, scene.run, output);
+    output.close(0);
+    spdlog::info("finished: {}", output.summary().dump());
+    return;
+  }
+  exchange::Participant coupler({options.endpoint, options.run, options.name});
+  try {
+    structure::run_coupled(vehicle, coupler, output);
+    output.close(coupler.waiting_seconds());
+  } catch (const exchange::Stopped&) {
+    output.close(coupler.waiting_seconds());
+    throw;
+  } catch (const exchange::CouplerLost&) {
+    output.close(coupler.waiting_seconds());
+    throw;
+  } catch (const std::exception& error) {
+    coupler.fail(error.what());
+    output.close(coupler.waiting_seconds());
+    throw;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  exchange::die_with_parent();
+  Options options;
+  if (const auto code = parse(argc, argv, options)) return *code;
+  scene::Scene scene;
+  structure::BuiltVehicle vehicle;
+  try {
+    scene = scene::load_resolved_scene(options.scene);
+    start_log(options);
+    vehicle = structure::build_vehicle(scene);
+    describe(vehicle);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "structure_solver: %s\n", error.what());
+    return 2;
+  }
+  try {
+    run(options, scene, vehicle);
+    return 0;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    std::fprintf(stderr, "structure_solver: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,35 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace polynya::structure {
+
+/// Which motions a model's symmetry allows: all; those in the plane y = 0; along z only.
+enum class Freedom { full, plane, axial };
+
+/// A rigid body in a leapfrog: centre and orientation at t(n), velocity and angular momentum at t(n+1/2).
+struct RigidMotion {
+  Freedom freedom = Freedom::full;
+  double mass = 0;                                                  ///< kg
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Identity();            ///< kg m^2, about the centre, in the body's frame
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();                 ///< m
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();        ///< body frame to space
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< m/s
+  Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();       ///< kg m^2/s, in space
+  double kinetic_energy = 0;                                        ///< J at t(n), see push()
+  double step_change = 0;                                           ///< J, sum of what push() re-read
+};
+
+/// Moves centre and orientation by one step. The orientation turns by the angular velocity that belongs to the mean of
+/// the body-frame angular momenta before and after: angular momentum and, without torque, energy are kept to rounding.
+void advance(RigidMotion& body, double dt);
+
+/// Angular velocity in space at the present orientation, rad/s.
+Eigen::Vector3d angular_velocity(const RigidMotion& body);
+
+/// v += (dt_previous + dt_next)/2 F/m, likewise the angular momentum; components that the symmetry forbids are dropped.
+/// The kinetic energy is 1/2 m v(n)^2 less dt_next^2/8 m a^2 (and the same for the rotation), whose change in a step of
+/// constant length is exactly the work of the forces; when the length changes the second term is re-read and booked.
+void push(RigidMotion& body, Eigen::Vector3d force, Eigen::Vector3d torque, double dt_previous, double dt_next);
+
+}  // namespace polynya::structure

@@ -1,0 +1,119 @@
+#include "structure_solver/rigid_vehicle.hpp"
+
+namespace polynya::structure {
+namespace {
+
+Freedom freedom_of(geometry::Portion portion) {
+  switch (portion) {
+    case geometry::Portion::full: return Freedom::full;
+    case geometry::Portion::half: return Freedom::plane;
+    case geometry::Portion::quarter: break;
+  }
+  return Freedom::axial;
+}
+
+Eigen::Vector3d node(const std::vector<double>& coordinates, std::size_t i) {
+  return {coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]};
+}
+
+}  // namespace
+
+RigidVehicle::RigidVehicle(const geometry::VehicleMesh& mesh, std::span<const double> node_masses,
+                           geometry::Portion portion, const Launch& launch)
+    : gravity_(launch.gravity), reference_(mesh.hexahedra.nodes) {
+  const std::size_t nodes = node_masses.size();
+  motion_.freedom = freedom_of(portion);
+  for (std::size_t i = 0; i < nodes; ++i) {
+    motion_.mass += node_masses[i];
+    motion_.centre += node_masses[i] * node(reference_, i);
+  }
+  motion_.centre /= motion_.mass;
+  motion_.inertia.setZero();
+  for (std::size_t i = 0; i < nodes; ++i) {
+    arms_.push_back(node(reference_, i) - motion_.centre);
+    const Eigen::Vector3d& r = arms_.back();
+    motion_.inertia += node_masses[i] * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+  }
+  motion_.velocity = {0, 0, launch.speed};
+  initial_centre_z_ = motion_.centre.z();
+  for (const std::int32_t i : mesh.hull_nodes) hull_arms_.push_back(arms_[i]);
+  hull_.resize(hull_arms_.size());
+  last_force_.assign(hull_arms_.size(), Eigen::Vector3d::Zero());
+  place_hull();
+  push(motion_, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0, 0);
+}
+
+void RigidVehicle::set_spin(const Eigen::Vector3d& angular_velocity) {
+  motion_.angular_momentum = motion_.orientation * motion_.inertia * motion_.orientation.transpose() * angular_velocity;
+  turn_rate_ = (Eigen::Matrix3d() << 0, -angular_velocity.z(), angular_velocity.y(), angular_velocity.z(), 0,
+                -angular_velocity.x(), -angular_velocity.y(), angular_velocity.x(), 0)
+                   .finished() *
+               motion_.orientation;
+  push(motion_, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0, 0);
+}
+
+void RigidVehicle::place_hull() {
+  for (std::size_t v = 0; v < hull_.size(); ++v) hull_[v] = motion_.centre + motion_.orientation * hull_arms_[v];
+}
+
+void RigidVehicle::advance_positions(double dt) {
+  const Eigen::Matrix3d before = motion_.orientation;
+  advance(motion_, dt);
+  // Velocities of the hull are the ones that lead from the position before to the present one.
+  turn_rate_ = (motion_.orientation - before) / dt;
+  place_hull();
+}
+
+void RigidVehicle::finish_step(std::span<const double> hull_force, double dt_previous, double dt_next) {
+  Eigen::Vector3d force(0, 0, -motion_.mass * gravity_), torque = Eigen::Vector3d::Zero();
+  for (std::size_t v = 0; v < hull_.size(); ++v) {
+    const Eigen::Vector3d f =
+        hull_force.empty() ? Eigen::Vector3d(0, 0, 0)
+                           : Eigen::Vector3d(hull_force[3 * v], hull_force[3 * v + 1], hull_force[3 * v + 2]);
+    force += f;
+    torque += (hull_[v] - motion_.centre).cross(f);
+    work_ += 0.5 * dt_previous * (last_force_[v] + f).dot(hull_velocity(v));
+    last_force_[v] = f;
+  }
+  push(motion_, force, torque, dt_previous, dt_next);
+}
+
+Account RigidVehicle::account() const {
+  Account a;
+  a.kinetic = motion_.kinetic_energy;
+  a.step_change = motion_.step_change;
+  a.external_work = work_;
+  a.mass = motion_.mass;
+  a.centre_of_mass_z = motion_.centre.z();
+  a.gravity_work = -motion_.mass * gravity_ * (a.centre_of_mass_z - initial_centre_z_);
+  for (int c = 0; c < 3; ++c) a.momentum[c] = motion_.mass * motion_.velocity[c];
+  a.speed_z = motion_.velocity.z();
+  return a;
+}
+
+void RigidVehicle::hull_motion(std::span<double> positions, std::span<double> velocities) const {
+  for (std::size_t v = 0; v < hull_.size(); ++v) {
+    const Eigen::Vector3d velocity = hull_velocity(v);
+    for (int c = 0; c < 3; ++c) {
+      positions[3 * v + c] = hull_[v][c];
+      velocities[3 * v + c] = velocity[c];
+    }
+  }
+}
+
+VehicleFields RigidVehicle::fields() const {
+  VehicleFields f;
+  const Eigen::Vector3d spin = motion_.freedom == Freedom::axial ? Eigen::Vector3d(0, 0, 0) : angular_velocity(motion_);
+  for (std::size_t i = 0; i < arms_.size(); ++i) {
+    const Eigen::Vector3d arm = motion_.orientation * arms_[i];
+    const Eigen::Vector3d position = motion_.centre + arm, velocity = motion_.velocity + spin.cross(arm);
+    for (int c = 0; c < 3; ++c) {
+      f.positions.push_back(position[c]);
+      f.velocities.push_back(velocity[c]);
+      f.displacements.push_back(position[c] - reference_[3 * i + c]);
+    }
+  }
+  return f;
+}
+
+}  // namespace polynya::structure

@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "structure_solver/rigid_motion.hpp"
+
+namespace polynya::structure {
+namespace {
+
+using Eigen::Vector3d;
+
+double spin_energy(const RigidMotion& body) { return 0.5 * angular_velocity(body).dot(body.angular_momentum); }
+
+TEST(RigidMotion, FallsAsHalfGravityTimesTimeSquared) {
+  RigidMotion body;
+  body.mass = 0.3;
+  const double g = 9.81, dt = 1e-4;
+  push(body, {0, 0, -body.mass * g}, Vector3d::Zero(), 0, dt);
+  for (int n = 0; n < 10000; ++n) {
+    advance(body, dt);
+    push(body, {0, 0, -body.mass * g}, Vector3d::Zero(), dt, dt);
+  }
+  EXPECT_NEAR(body.centre.z(), -0.5 * g, 1e-10);
+}
+
+TEST(RigidMotion, TorqueFreeTopKeepsEnergyAndAngularMomentum) {
+  RigidMotion body;
+  body.mass = 1;
+  body.inertia = Vector3d(1.0, 2.0, 3.5).asDiagonal();
+  body.angular_momentum = {0.3, 4.0, 0.2};  // near the unstable axis: it tumbles
+  const Vector3d momentum = body.angular_momentum;
+  const double energy = spin_energy(body);
+  double farthest = 0;
+  for (int n = 0; n < 20000; ++n) {
+    advance(body, 5e-3);
+    farthest = std::max(farthest, std::abs(spin_energy(body) / energy - 1));
+  }
+  EXPECT_LT(farthest, 1e-12);
+  EXPECT_EQ(body.angular_momentum, momentum);
+  EXPECT_NEAR((body.orientation.transpose() * body.orientation - Eigen::Matrix3d::Identity()).norm(), 0, 1e-14);
+}
+
+TEST(RigidMotion, SymmetricTopPrecessesAtTheRateOfTheTextbook) {
+  // The axis of a free symmetric top circles the angular momentum at L / I1.
+  const auto error = [](int steps) {
+    RigidMotion body;
+    body.inertia = Vector3d(2.0, 2.0, 0.7).asDiagonal();
+    body.mass = 1;
+    body.angular_momentum = {0, 1.0, 2.0};
+    const double rate = body.angular_momentum.norm() / 2.0, time = 3.0;
+    for (int n = 0; n < steps; ++n) advance(body, time / steps);
+    const Vector3d axis = body.angular_momentum.normalized();
+    const Vector3d exact = Eigen::AngleAxisd(rate * time, axis) * Vector3d(0, 0, 1);
+    return (body.orientation.col(2) - exact).norm();
+  };
+  EXPECT_LT(error(200), 1e-4);
+  EXPECT_NEAR(std::log2(error(200) / error(400)), 2, 0.05);
+}
+
+TEST(RigidMotion, WorkOfForcesIsTheChangeOfKineticEnergyWhateverTheSteps) {
+  RigidMotion body;
+  body.mass = 0.4;
+  body.velocity = {1, 2, 3};
+  const auto force = [](int n) { return Vector3d(std::sin(0.1 * n), 0.3, std::cos(0.2 * n)); };
+  push(body, Vector3d::Zero(), Vector3d::Zero(), 0, 0);
+  const double start = body.kinetic_energy;
+  double work = 0, before = 0, dt = 0.01;
+  push(body, force(0), Vector3d::Zero(), 0, dt);
+  for (int n = 1; n < 500; ++n) {
+    before = dt;
+    dt = 0.01 * (1 + 0.5 * std::sin(n));
+    advance(body, before);
+    work += 0.5 * before * (force(n - 1) + force(n)).dot(body.velocity);
+    push(body, force(n), Vector3d::Zero(), before, dt);
+  }
+  EXPECT_NEAR(body.kinetic_energy - start - work - body.step_change, 0, 1e-12 * body.kinetic_energy);
+}
+
+TEST(RigidMotion, SymmetryAllowsOnlyItsMotions) {
+  RigidMotion plane, axial;
+  plane.freedom = Freedom::plane;
+  axial.freedom = Freedom::axial;
+  for (RigidMotion* body : {&plane, &axial}) {
+    body->mass = 1;
+    body->inertia << 1, 0, 0, 0, 2, 0.3, 0, 0.3, 3;
+    push(*body, {1, 2, 3}, {4, 5, 6}, 0.5, 0.5);
+    advance(*body, 0.5);
+  }
+  EXPECT_EQ(plane.velocity, Vector3d(0.5, 0, 1.5));
+  EXPECT_EQ(angular_velocity(plane).x(), 0);
+  EXPECT_NEAR(angular_velocity(plane).y(), 0.5 * 5 / 2.0, 1e-14);
+  EXPECT_EQ(angular_velocity(plane).z(), 0);
+  EXPECT_EQ(axial.velocity, Vector3d(0, 0, 1.5));
+  EXPECT_EQ(axial.orientation, Eigen::Matrix3d::Identity());
+}
+
+}  // namespace
+}  // namespace polynya::structure
