@@ -7,10 +7,11 @@
 
 using namespace polynya;
 
-ElasticBar::ElasticBar(const std::string& name, double low, double high, int elements, double speed) {
+ElasticBar::ElasticBar(const std::string& name, double low, double high, double width, int elements,
+                       double speed) {
   continuum::HexMesh mesh;
-  constexpr double half = 0.005;
-  constexpr double corner[4][2] = {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
+  const double half = 0.5 * width, stiffer = 0.01 * 0.01 / (width * width);
+  const double corner[4][2] = {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
   for (int k = 0; k <= elements; ++k)
     for (const auto& c : corner) {
       const double point[3] = {c[0], c[1], low + (high - low) * k / elements};
@@ -24,7 +25,7 @@ ElasticBar::ElasticBar(const std::string& name, double low, double high, int ele
   surface_nodes = boundary.nodes;
   triangles = boundary.triangles;
   const continuum::Law law = continuum::law_from_card(
-      "steel", "elastic", {{"density", 7800}, {"youngs_modulus", 2e11}, {"poisson_ratio", 0.3}});
+      "steel", "elastic", {{"density", 7800 * stiffer}, {"youngs_modulus", 2e11 * stiffer}, {"poisson_ratio", 0.3}});
   solid = continuum::make_solid(name, std::move(mesh), law);
   for (std::size_t n = 0; n < solid.node_count(); ++n) {
     solid.fixed[n] = 1 | 2;  // uniaxial strain

@@ -5,12 +5,14 @@
 #include "core/exchange/message.hpp"
 
 /// A straight elastic bar along z of square section, moving along z only: the smallest honest solid participant.
+/// All bars have the wave speed of steel and the impedance (density x wave speed x area) of a 10 mm steel bar, whatever
+/// their width, so that any two of them exchange their velocities when they collide.
 struct ElasticBar {
   polynya::continuum::ExplicitSolid solid;
   std::vector<std::int32_t> surface_nodes, triangles;
 
-  /// `elements` along z from `low` to `high` (m), section 10 mm, moving at `speed` (m/s).
-  ElasticBar(const std::string& name, double low, double high, int elements, double speed);
+  /// `elements` along z from `low` to `high` (m), square of this `width` (m), moving at `speed` (m/s).
+  ElasticBar(const std::string& name, double low, double high, double width, int elements, double speed);
 
   std::vector<double> gather(const std::vector<double>& nodal) const;  ///< rows of the surface nodes
   void scatter(std::span<const std::int64_t> vertices, std::span<const double> forces, std::vector<double>& nodal) const;

@@ -17,8 +17,9 @@ namespace {
 
 constexpr double speed = 10;  // m/s
 
-ElasticBar striker() { return {"striker", -0.1, 0, 40, speed}; }
-ElasticBar target() { return {"target", 1e-6, 0.100001, 40, 0}; }
+// The target is narrower: nodes exactly above the striker's rim would be as near to its sides as to its end.
+ElasticBar striker() { return {"striker", -0.1, 0, 0.01, 40, speed}; }
+ElasticBar target() { return {"target", 1e-6, 0.100001, 0.008, 40, 0}; }
 
 scene::Scene two_bar_scene() {
   scene::Scene scene;
