@@ -14,6 +14,8 @@
 namespace polynya::exchange {
 namespace {
 
+using std::chrono::milliseconds;
+
 constexpr int linger_ms = 2000;
 constexpr const char* monitor_address = "inproc://monitor";
 
@@ -153,15 +155,19 @@ Transport::Transport(Side side, const std::string& endpoint) {
 
 Transport::~Transport() = default;
 
-std::optional<Delivery> Transport::next(std::chrono::milliseconds longest) {
-  if (std::optional<Delivery> delivery = state_->take()) return delivery;
-  // ZeroMQ's descriptors report only changes since the socket was last found empty, which was just now for the socket
-  // and in read_monitor() for the monitor. Waiting on them directly saves the six system calls of zmq_poll.
+std::optional<Delivery> Transport::next(milliseconds longest) {
+  const auto until = std::chrono::steady_clock::now() + longest;
+  // ZeroMQ's descriptors report only changes since the socket was last found empty, which take() and read_monitor()
+  // make sure of. Waiting on them directly saves the six system calls of zmq_poll. They may also report a change that
+  // is no message.
   pollfd both[] = {{state_->socket.get(zmq::sockopt::fd), POLLIN, 0},
                    {state_->monitor.get(zmq::sockopt::fd), POLLIN, 0}};
-  if (poll(both, 2, static_cast<int>(longest.count())) <= 0) return std::nullopt;
-  if (both[1].revents != 0) state_->read_monitor();
-  return state_->take();
+  while (true) {
+    if (std::optional<Delivery> delivery = state_->take()) return delivery;
+    const auto left = std::chrono::ceil<milliseconds>(until - std::chrono::steady_clock::now());
+    if (!state_->closed.empty() || left <= milliseconds(0)) return std::nullopt;
+    if (poll(both, 2, static_cast<int>(left.count())) > 0 && both[1].revents != 0) state_->read_monitor();
+  }
 }
 
 std::vector<int> Transport::closed_connections() {

@@ -31,8 +31,8 @@ class Transport {
   Transport(const Transport&) = delete;
   Transport& operator=(const Transport&) = delete;
 
-  /// The next delivery. Sleeps at most this long for one; returns nothing when the time is over, a connection closed or
-  /// a signal came. So whoever finds nothing and then a closed connection has read all that came over it before.
+  /// The next delivery. Sleeps at most this long for one; returns nothing when the time is over or a connection closed.
+  /// So whoever finds nothing and then a closed connection has read all that came over it before.
   std::optional<Delivery> next(std::chrono::milliseconds longest);
 
   /// Connections that the other side closed since the last call, oldest first.
