@@ -1,0 +1,40 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "ice_solver/ice_body.hpp"
+
+namespace polynya::ice {
+
+/// The books of the ice at t(n), of the modelled part. Energies in J since the start; their balance is constant:
+///   kinetic + internal + hourglass + viscous + conversion_heat + boundary_flux
+///     - external_work - gravity_work - step_change
+struct Account {
+  double kinetic = 0;
+  double internal = 0;          ///< work of the stress in elements, particles and the bond between them
+  double hourglass = 0;
+  double viscous = 0;           ///< bulk viscosity of elements and artificial viscosity of particles
+  double conversion_heat = 0;   ///< motion within elements that became particles
+  double bond_work = 0;         ///< part of internal: work of the elements' stress in the bond to particles
+  double boundary_flux = 0;     ///< out through non-reflecting sides
+  double external_work = 0;     ///< done by loads and by what holds prescribed nodes
+  double gravity_work = 0;
+  double step_change = 0;       ///< see continuum::EnergyAccount
+  std::array<double, 3> momentum{}, boundary_impulse{};  ///< N s
+  double gravity_impulse = 0;   ///< N s, along z
+  double mass = 0, broken_mass = 0;                      ///< kg
+  double converted_elements = 0, particles = 0;
+
+  double balance() const {
+    return kinetic + internal + hourglass + viscous + conversion_heat + boundary_flux - external_work - gravity_work -
+           step_change;
+  }
+};
+
+Account account_of(const IceBody& ice);
+
+/// The account as the coupler reads it.
+const std::vector<std::string>& account_names();
+std::vector<double> account_values(const Account& account);
+
+}  // namespace polynya::ice

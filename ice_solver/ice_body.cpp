@@ -1,0 +1,97 @@
+#include "ice_solver/ice_body.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/compute/parallel.hpp"
+
+namespace polynya::ice {
+namespace {
+
+// Elements outside the background are not watched; at this interval nothing slower than c/75 can enter unseen.
+constexpr int longest_list_life = 25;
+constexpr double skin_in_smoothing_lengths = 0.2;
+constexpr double background_smoothing_limit = 1.5;  // of the largest particle's: keeps coarse elements from ruling the cells
+
+/// A particle that crosses a symmetry plane meets its mirror image, which enters on this side.
+void reflect_at_planes(Points& points, std::span<const std::size_t> axes) {
+  for (const std::size_t axis : axes)
+    for (std::size_t i = 0; i < points.count(); ++i) {
+      if (points.position[3 * i + axis] >= 0) continue;
+      points.position[3 * i + axis] *= -1;
+      points.velocity[3 * i + axis] *= -1;
+      points.stress[6 * i + 3] *= -1;                     // xy
+      points.stress[6 * i + (axis == 0 ? 5 : 4)] *= -1;   // zx or yz
+    }
+}
+
+void renew_list(IceBody& ice) {
+  const auto& h = ice.particles.points.smoothing_length;
+  const double largest = *std::max_element(h.begin(), h.end());
+  const double skin = skin_in_smoothing_lengths * largest;
+  const double limit = background_smoothing_limit * largest;
+  select_background(ice.background, ice.solid, ice.particles.points, largest + limit + skin, limit);
+  ice.list.build(ice.particles.points, ice.background.points, ice.options.planes, skin);
+  ice.list_is_stale = false;
+  ice.steps_since_build = 0;
+}
+
+PairViscosity viscosity_of(const IceBody& ice) {
+  return {ice.options.viscosity_linear, ice.options.viscosity_quadratic,
+          continuum::longitudinal_wave_speed(ice.solid.law)};
+}
+
+}  // namespace
+
+IceBody make_ice(const IceOptions& options) {
+  IceBody ice;
+  ice.options = options;
+  ice.solid = continuum::make_solid("ice", plate_mesh(options.x, options.y, options.z), options.law, options.numerics);
+  constrain_plate(ice.solid, options.planes, options.sides);
+  ice.face_neighbours = continuum::face_neighbours(ice.solid.mesh);
+  continuum::internal_forces(ice.solid, 0);
+  ice.first_step.assign(ice.solid.element.step_limit.begin(),
+                        ice.solid.element.step_limit.begin() + static_cast<std::ptrdiff_t>(ice.solid.element_count()));
+  ice.pair_force.assign(3 * ice.solid.node_count(), 0.0);
+  ice.nodal_force.assign(3 * ice.solid.node_count(), 0.0);
+  return ice;
+}
+
+void advance_positions(IceBody& ice, double dt) {
+  continuum::advance_positions(ice.solid, dt);
+  Points& points = ice.particles.points;
+  compute::for_chunks(points.position.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) points.position[k] += dt * points.velocity[k];
+  });
+  std::vector<std::size_t> axes;
+  if (ice.options.planes.x) axes.push_back(0);
+  if (ice.options.planes.y) axes.push_back(1);
+  reflect_at_planes(points, axes);
+}
+
+void internal_forces(IceBody& ice, double dt) {
+  continuum::internal_forces(ice.solid, dt);
+  std::fill(ice.pair_force.begin(), ice.pair_force.end(), 0.0);
+  Particles& particles = ice.particles;
+  if (particles.count() == 0) return;
+
+  refresh_background(ice.background, ice.solid);
+  ++ice.steps_since_build;
+  if (ice.list_is_stale || ice.steps_since_build > longest_list_life ||
+      ice.list.outdated(particles.points, ice.background.points))
+    renew_list(ice);
+  Points& background = ice.background.points;
+  ice.sums.velocity_gradients(ice.list, particles.points, background, particles.velocity_gradient,
+                              particles.approach_speed);
+  update_particle_stress(particles, ice.solid.law, dt);
+  const PairBalance balance = ice.sums.forces(ice.list, particles.points, background, viscosity_of(ice));
+  spread_background_forces(ice.background, ice.solid, ice.pair_force);
+  ice.books.particle_heat += dt * balance.viscous_power;
+  ice.books.bond_work -= dt * balance.bond_power;
+}
+
+double stable_step(const IceBody& ice) {
+  return std::min(continuum::stable_step(ice.solid), particle_stable_step(ice.particles, ice.solid.law));
+}
+
+}  // namespace polynya::ice

@@ -1,0 +1,101 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/continuum/explicit_solid.hpp"
+#include "ice_solver/background.hpp"
+#include "ice_solver/neighbour_list.hpp"
+#include "ice_solver/pair_sums.hpp"
+#include "ice_solver/particles.hpp"
+#include "ice_solver/plate.hpp"
+
+/// The ice: hexahedra that become particles, moved in step. One step from t(n) to t(n+1):
+///     advance_positions(ice, dt);                 x(n+1), from v(n+1/2)
+///     internal_forces(ice, dt);                   stresses, nodal, pair forces at x(n+1)
+///     advance_velocities(ice, loads, dt, next);   v(n+3/2); account
+///     convert_failed_elements(ice);               elements past the critical strain become particles
+/// A start: internal_forces(ice, 0); advance_velocities(ice, {}, 0, dt).
+namespace polynya::ice {
+
+struct IceOptions {
+  std::vector<double> x, y, z;  ///< m, grid lines of the modelled part
+  continuum::Law law;
+  continuum::Numerics numerics;
+  SymmetryPlanes planes;
+  Sides sides = Sides::free;
+  bool conversion = true;
+  double critical_strain = 0.35;
+  double collapsed_step = 0.1;   ///< an element is also converted when its stable step falls below this part of its first
+  double gravity = 0;            ///< m/s^2, along -z
+  double viscosity_linear = 1.0, viscosity_quadratic = 2.0;  ///< of the particles: Monaghan's alpha and beta
+};
+
+/// Time integral of a rate that is known at the ends of steps, by the trapezoidal rule: each value closes half a step
+/// and opens half of the next one.
+struct Trapezoid {
+  double total = 0, pending = 0;
+  void add(double closing, double opening) {
+    total += pending + closing;
+    pending = opening;
+  }
+};
+
+/// Why elements were converted.
+struct ConversionCount {
+  std::int64_t strained = 0;   ///< effective strain above the critical one
+  std::int64_t collapsed = 0;  ///< inverted or with a collapsed step
+};
+
+/// What the body has exchanged and lost beyond what continuum::EnergyAccount knows. J, N s, N m s.
+struct IceBooks {
+  double conversion_heat = 0;                       ///< relative motion within elements that became one particle
+  std::array<double, 3> angular_momentum_defect{};  ///< angular momentum lost by the same
+  double broken_mass = 0;                           ///< kg
+  ConversionCount converted;
+  double particle_kinetic = 0;
+  double removed_since_step = 0;                    ///< kinetic energy of elements converted after the last step
+  Trapezoid particle_step_change;
+  double particle_heat = 0;                         ///< work of the artificial viscosity
+  double bond_work = 0;                             ///< work the elements' stress took from the motion in the bond
+  Trapezoid node_pair_work, node_gravity_work, particle_gravity_work, particle_load_work;
+  std::array<Trapezoid, 3> boundary_impulse;        ///< of symmetry planes, held and damped nodes
+  Trapezoid gravity_impulse;                        ///< along z
+  std::array<double, 3> momentum{};                 ///< at t(n)
+};
+
+struct IceBody {
+  IceOptions options;
+  continuum::ExplicitSolid solid;
+  continuum::FaceNeighbours face_neighbours;
+  std::vector<double> first_step;  ///< [e], s, stable step of each element at the start
+  Particles particles;
+  Background background;
+  NeighbourList list;
+  PairSums sums;
+  bool list_is_stale = true;
+  int steps_since_build = 0;
+  std::vector<double> pair_force, nodal_force;  ///< [nodes][3], N
+  IceBooks books;
+  bool topology_changed = false;  ///< by the last convert_failed_elements
+};
+
+/// A plate at rest. Throws std::invalid_argument on bad grid lines.
+IceBody make_ice(const IceOptions& options);
+
+void advance_positions(IceBody& ice, double dt);
+void internal_forces(IceBody& ice, double dt);
+/// node_loads: [nodes][3], particle_loads: [particles][3], N; either may be empty.
+void advance_velocities(IceBody& ice, std::span<const double> node_loads, std::span<const double> particle_loads,
+                        double dt_previous, double dt_next);
+/// Returns how many elements became particles.
+std::size_t convert_failed_elements(IceBody& ice);
+/// Turns the given living elements into particles: mass, momentum, stress, damage and density are kept, kinetic energy
+/// of relative motion becomes heat.
+void convert_elements(IceBody& ice, std::span<const std::int32_t> elements);
+
+/// The smaller of the elements' and the particles' stable steps, s, without a safety factor.
+double stable_step(const IceBody& ice);
+
+}  // namespace polynya::ice

@@ -1,0 +1,134 @@
+// The second half of a step: velocities from forces, and the books of energy and momentum.
+#include <algorithm>
+
+#include "core/compute/parallel.hpp"
+#include "ice_solver/ice_body.hpp"
+
+namespace polynya::ice {
+namespace {
+
+using compute::ordered_sum;
+
+double product(std::span<const double> a, std::span<const double> b) {
+  if (a.empty() || b.empty()) return 0;
+  return ordered_sum(a.size(), 4096, [&](std::size_t k) { return a[k] * b[k]; });
+}
+
+/// Work of the weight per second: - g sum m v_z.
+double gravity_power(const std::vector<double>& mass, const std::vector<double>& velocity, double gravity) {
+  if (gravity == 0) return 0;
+  return -gravity * ordered_sum(mass.size(), 4096, [&](std::size_t i) { return mass[i] * velocity[3 * i + 2]; });
+}
+
+struct Powers {
+  double node_pair, node_gravity, particle_gravity, particle_load;
+};
+
+/// Powers of the forces at t(n+1) with the present velocities.
+Powers powers(const IceBody& ice, std::span<const double> particle_loads) {
+  const Points& points = ice.particles.points;
+  Powers p{0, 0, 0, 0};
+  if (points.count() > 0) p.node_pair = product(ice.pair_force, ice.solid.velocities);
+  p.node_gravity = gravity_power(ice.solid.masses, ice.solid.velocities, ice.options.gravity);
+  p.particle_gravity = gravity_power(points.mass, points.velocity, ice.options.gravity);
+  p.particle_load = product(particle_loads, points.velocity);
+  return p;
+}
+
+void collect_nodal_force(IceBody& ice, std::span<const double> node_loads) {
+  std::vector<double>& force = ice.nodal_force;
+  compute::for_chunks(ice.solid.node_count(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      for (std::size_t k = 3 * n; k < 3 * n + 3; ++k)
+        force[k] = ice.pair_force[k] + (node_loads.empty() ? 0.0 : node_loads[k]);
+      force[3 * n + 2] -= ice.solid.masses[n] * ice.options.gravity;
+    }
+  });
+}
+
+void advance_particles(IceBody& ice, std::span<const double> loads, double dt_previous, double dt_next) {
+  Particles& p = ice.particles;
+  const double dt = 0.5 * (dt_previous + dt_next);
+  compute::for_chunks(p.count(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t k = 3 * i + c;
+        const double force = p.points.force[k] + (loads.empty() ? 0.0 : loads[k]);
+        p.acceleration[k] = force / p.points.mass[i] - (c == 2 ? ice.options.gravity : 0.0);
+        p.points.velocity[k] += dt * p.acceleration[k];
+      }
+  });
+  // Kinetic energy at t(n) as in continuum::EnergyAccount: the product of the half-step velocities, re-read when the
+  // step changes.
+  double kinetic = 0, half_square = 0;
+  for (std::size_t k = 0; k < p.acceleration.size(); ++k) {
+    const double a = p.acceleration[k], m = p.points.mass[k / 3], v = p.points.velocity[k] - 0.5 * dt_next * a;
+    kinetic += 0.5 * m * v * v;
+    half_square += 0.125 * m * a * a;
+  }
+  ice.books.particle_kinetic = kinetic - half_square * dt_previous * dt_previous;
+  ice.books.particle_step_change.add(0, half_square * (dt_previous * dt_previous - dt_next * dt_next));
+}
+
+struct MomentumBalance {
+  double boundary = 0;  ///< N, what planes, held and damped nodes push with
+  double momentum = 0;  ///< N s, at t(n)
+};
+
+MomentumBalance momentum_balance(const IceBody& ice, std::size_t c, double dt_next) {
+  const auto& solid = ice.solid;
+  const Particles& p = ice.particles;
+  const auto is_free = [&](std::size_t n) { return solid.masses[n] > 0 && (solid.fixed[n] >> c & 1) == 0; };
+  const auto sum_nodes = [&](auto&& term) { return ordered_sum(solid.node_count(), 4096, term); };
+  const auto sum_particles = [&](auto&& term) { return ordered_sum(p.count(), 4096, term); };
+  MomentumBalance balance;
+  // A free node feels the damped boundary through its internal force, whose sum would else be zero; a held one has its
+  // other forces taken by what holds it. Pair forces are internal, but for those of mirror images.
+  balance.boundary = sum_nodes([&](std::size_t n) {
+    const std::size_t k = 3 * n + c;
+    return ice.pair_force[k] + (is_free(n) ? solid.internal_force[k] : -ice.nodal_force[k]);
+  }) + sum_particles([&](std::size_t i) { return p.points.force[3 * i + c]; });
+  const double rate = sum_nodes([&](std::size_t n) {
+    return is_free(n) ? solid.internal_force[3 * n + c] + ice.nodal_force[3 * n + c] : 0.0;
+  }) + sum_particles([&](std::size_t i) { return p.points.mass[i] * p.acceleration[3 * i + c]; });
+  balance.momentum = sum_nodes([&](std::size_t n) { return solid.masses[n] * solid.velocities[3 * n + c]; }) +
+                     sum_particles([&](std::size_t i) { return p.points.mass[i] * p.points.velocity[3 * i + c]; }) -
+                     0.5 * dt_next * rate;
+  return balance;
+}
+
+void book_momentum(IceBody& ice, double dt_previous, double dt_next) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    const MomentumBalance balance = momentum_balance(ice, c, dt_next);
+    ice.books.boundary_impulse[c].add(0.5 * dt_previous * balance.boundary, 0.5 * dt_next * balance.boundary);
+    ice.books.momentum[c] = balance.momentum;
+  }
+  if (ice.options.gravity == 0) return;
+  const auto sum = [](const std::vector<double>& mass) {
+    return ordered_sum(mass.size(), 4096, [&](std::size_t i) { return mass[i]; });
+  };
+  const double weight = -ice.options.gravity * (sum(ice.solid.masses) + sum(ice.particles.points.mass));
+  ice.books.gravity_impulse.add(0.5 * dt_previous * weight, 0.5 * dt_next * weight);
+}
+
+}  // namespace
+
+void advance_velocities(IceBody& ice, std::span<const double> node_loads, std::span<const double> particle_loads,
+                        double dt_previous, double dt_next) {
+  collect_nodal_force(ice, node_loads);
+  const Powers closing = powers(ice, particle_loads);
+  continuum::advance_velocities(ice.solid, ice.nodal_force, dt_previous, dt_next);
+  advance_particles(ice, particle_loads, dt_previous, dt_next);
+  const Powers opening = powers(ice, particle_loads);
+  const auto book = [&](Trapezoid& account, double Powers::*which) {
+    account.add(0.5 * dt_previous * closing.*which, 0.5 * dt_next * opening.*which);
+  };
+  book(ice.books.node_pair_work, &Powers::node_pair);
+  book(ice.books.node_gravity_work, &Powers::node_gravity);
+  book(ice.books.particle_gravity_work, &Powers::particle_gravity);
+  book(ice.books.particle_load_work, &Powers::particle_load);
+  book_momentum(ice, dt_previous, dt_next);
+  ice.books.removed_since_step = 0;
+}
+
+}  // namespace polynya::ice

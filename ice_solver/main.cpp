@@ -1,0 +1,111 @@
+// The ice: reads the resolved scene, talks to the coupler or runs alone.
+#include <omp.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "core/exchange/environment.hpp"
+#include "core/results/process_report.hpp"
+#include "ice_solver/run.hpp"
+#include "ice_solver/scene_options.hpp"
+
+namespace {
+
+using namespace polynya;
+
+struct Options {
+  std::string scene, out, endpoint, run, name = "ice";
+  int threads = 0;  // 0: what OpenMP finds
+};
+
+void start_log(const Options& options) {
+  auto logger = spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", true);
+  logger->flush_on(spdlog::level::trace);
+  spdlog::set_default_logger(logger);
+}
+
+/// A card's hidden meaning belongs in the log: the strengths it implies.
+void log_law(const continuum::Law& law, const std::string& card) {
+  const auto* brittle = std::get_if<continuum::JohnsonHolmquist2>(&law);
+  if (!brittle) return;
+  spdlog::info("{}: tensile strength {:.3g} MPa at 1/s", card, 1e-6 * continuum::uniaxial_tensile_strength(*brittle, 1));
+  for (const double rate : {1.0, 10.0, 100.0, 1e3, 1e4})
+    spdlog::info("{}: unconfined compressive strength {:.3g} MPa at {:g}/s", card,
+                 1e-6 * continuum::unconfined_compressive_strength(*brittle, rate), rate);
+}
+
+void write_report(const Options& options, const ice::IceRun& run, results::ProcessReport& report,
+                  const exchange::Participant* participant) {
+  if (participant) report.waiting_time = participant->waiting_seconds();
+  report.seconds = run.watch.seconds();
+  report.counts = {{"steps", static_cast<double>(run.steps)},
+                   {"elements", static_cast<double>(run.ice.solid.element_count())},
+                   {"particles", static_cast<double>(run.ice.particles.count())},
+                   {"list_builds", static_cast<double>(run.ice.list.builds())}};
+  report.write(options.out, options.name);
+}
+
+/// Everything after the input was found good. Returns the exit code.
+int work(const Options& options, ice::IceRun& run, results::ProcessReport& report) {
+  std::optional<exchange::Participant> participant;
+  int code = 0;
+  try {
+    if (options.endpoint.empty()) {
+      ice::run_alone(run);
+    } else {
+      participant.emplace(exchange::Participant::Options{options.endpoint, options.run, options.name});
+      ice::run_coupled(run, *participant);
+    }
+    spdlog::info("end: {}", ice::last_words(run).dump());
+  } catch (const exchange::Stopped& stop) {
+    spdlog::error("{}", stop.what());
+    code = 1;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    std::fprintf(stderr, "ice_solver: %s\n", error.what());
+    if (participant) participant->fail(error.what());
+    code = 1;
+  }
+  write_report(options, run, report, participant ? &*participant : nullptr);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  exchange::die_with_parent();
+  results::ProcessReport report;
+  Options options;
+  CLI::App app{"The ice: finite elements that become particles. Alone, or with --connect as a participant of a coupled run."};
+  app.add_option("--scene", options.scene, "resolved scene (RUN/scene.json)")->required();
+  app.add_option("--out", options.out, "run folder")->required();
+  auto* connect = app.add_option("--connect", options.endpoint, "endpoint of the coupler; without it the ice runs alone");
+  auto* run_id = app.add_option("--run", options.run, "identity of the run, as given to the coupler");
+  connect->needs(run_id);
+  app.add_option("--name", options.name, "name of this participant");
+  app.add_option("--threads", options.threads, "threads; 0: as many as OpenMP finds")->check(CLI::NonNegativeNumber);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (options.threads > 0) omp_set_num_threads(options.threads);
+  ice::IceRun run;
+  try {
+    run.scene = scene::load_resolved_scene(options.scene);
+    run.folder = options.out;
+    start_log(options);
+    run.ice = ice::make_ice(ice::options_from_scene(run.scene));
+    log_law(run.ice.solid.law, run.scene.ice->material);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ice_solver: %s\n", error.what());
+    return 2;
+  }
+  spdlog::info("{} elements, {} nodes, stable step {:.3e} s", run.ice.solid.element_count(), run.ice.solid.node_count(),
+               ice::stable_step(run.ice));
+  return work(options, run, report);
+}

@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/continuum/explicit_solid.hpp"
+#include "ice_solver/neighbour_list.hpp"
+
+namespace polynya::ice {
+
+/// What happens on the outer lateral faces: waves leave, nothing holds them, or they are held in place.
+enum class Sides { non_reflecting, free, clamped };
+
+/// "non_reflecting", "free" or "clamped". Throws std::invalid_argument naming the alternatives.
+Sides sides_from_name(const std::string& name);
+
+/// Hexahedra between grid lines (m, ascending). Nodes and elements are numbered along z first, then x, then y, so that
+/// neighbours in a thin plate are neighbours in memory. Throws std::invalid_argument if a line has less than two nodes
+/// or does not ascend.
+continuum::HexMesh plate_mesh(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& z);
+
+/// Holds what symmetry and sides demand: the normal component on symmetry planes, all components on clamped sides,
+/// waves leaving through non-reflecting ones. The plate must begin at 0 where it is cut by a plane.
+void constrain_plate(continuum::ExplicitSolid& plate, SymmetryPlanes planes, Sides sides);
+
+/// The symmetry planes as the surface extraction wants them: faces on them cannot be touched.
+std::vector<continuum::Plane> excluded_planes(SymmetryPlanes planes);
+
+}  // namespace polynya::ice

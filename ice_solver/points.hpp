@@ -1,0 +1,28 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+namespace polynya::ice {
+
+/// What the particle sums read and write of a set of points: particles, or intact elements seen as points.
+struct Points {
+  std::vector<double> position;          ///< [n][3], m
+  std::vector<double> velocity;          ///< [n][3], m/s, half a step behind the position's time
+  std::vector<double> stress;            ///< [n][6], Pa: xx, yy, zz, xy, yz, zx
+  std::vector<double> mass;              ///< [n], kg
+  std::vector<double> density;           ///< [n], kg/m^3
+  std::vector<double> smoothing_length;  ///< [n], m
+  std::vector<double> cohesion;          ///< [n], 0..1: the share of a neighbouring element's tension that it feels
+  std::vector<double> force;             ///< [n][3], N, result of the sums
+
+  std::size_t count() const { return mass.size(); }
+  void resize(std::size_t count);
+};
+
+inline void Points::resize(std::size_t count) {
+  for (auto* vector : {&position, &velocity, &force}) vector->resize(3 * count);
+  for (auto* scalar : {&mass, &density, &smoothing_length, &cohesion}) scalar->resize(count);
+  stress.resize(6 * count);
+}
+
+}  // namespace polynya::ice

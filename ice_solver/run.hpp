@@ -1,0 +1,32 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/compute/timer.hpp"
+#include "core/exchange/participant.hpp"
+#include "core/scene/scene.hpp"
+#include "ice_solver/ice_body.hpp"
+
+namespace polynya::ice {
+
+/// What a run needs besides the ice, and what it leaves for the report.
+struct IceRun {
+  scene::Scene scene;
+  std::string folder;
+  IceBody ice;
+  compute::Stopwatch watch;
+  long steps = 0;
+  double smallest_step = 1e300;  ///< s
+};
+
+/// The role of a solid in the coupled conversation (docs/protocol.md), until the coupler says `bye`.
+void run_coupled(IceRun& run, exchange::Participant& participant);
+
+/// Without partners until scene.run.end_time: bending between rollers, or the plate left to itself. Writes
+/// RUN/series/ice.csv.
+void run_alone(IceRun& run);
+
+/// What the ice has to say at the end; masses and energies are those of the full plate.
+nlohmann::json last_words(const IceRun& run);
+
+}  // namespace polynya::ice

@@ -1,0 +1,92 @@
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "core/results/time_series.hpp"
+#include "ice_solver/account.hpp"
+#include "ice_solver/bending.hpp"
+#include "ice_solver/fields.hpp"
+#include "ice_solver/run.hpp"
+
+namespace polynya::ice {
+namespace {
+
+constexpr int rows_per_frame = 100;  // of the time series, between two field frames
+
+std::vector<results::Column> columns() {
+  return {{"time", "s"},           {"load", "N"},           {"support_reaction", "N"}, {"deflection", "m"},
+          {"kinetic", "J"},        {"internal", "J"},       {"hourglass", "J"},        {"viscous", "J"},
+          {"conversion_heat", "J"}, {"boundary_flux", "J"}, {"external_work", "J"},    {"gravity_work", "J"},
+          {"balance", "J"},        {"broken_mass", "kg"},   {"particles", ""},         {"most_damage", ""},
+          {"step", "s"}};
+}
+
+double most_damage(const IceBody& ice) {
+  return *std::max_element(ice.solid.element.damage.begin(), ice.solid.element.damage.end());
+}
+
+/// Extensive values are those of the full model.
+void append_row(results::TimeSeries& series, const IceRun& run, const std::optional<BendingRig>& rig, double factor,
+                double dt) {
+  const Account a = account_of(run.ice);
+  const double load = rig ? roller_load(*rig, run.ice) : 0, reaction = rig ? support_reaction(*rig, run.ice) : 0;
+  const double row[] = {run.ice.solid.time, load, reaction, rig ? rig->deflection : 0, factor * a.kinetic,
+                        factor * a.internal, factor * a.hourglass, factor * a.viscous, factor * a.conversion_heat,
+                        factor * a.boundary_flux, factor * a.external_work, factor * a.gravity_work,
+                        factor * a.balance(), factor * a.broken_mass, a.particles, most_damage(run.ice), dt};
+  series.append(row);
+}
+
+std::optional<BendingRig> rig_of(IceRun& run) {
+  const auto& bending = run.scene.ice->bending;
+  if (!bending) return std::nullopt;
+  BendingRig rig = make_bending_rig(run.ice, bending->support_span, bending->load_span, bending->speed, bending->ramp_time);
+  spdlog::info("bending: supports {:.4g} m apart ({} nodes), loads {:.4g} m apart ({} nodes)", rig.support_span,
+               rig.supports.size(), rig.load_span, rig.loads.size());
+  return rig;
+}
+
+}  // namespace
+
+void run_alone(IceRun& run) {
+  IceBody& ice = run.ice;
+  const auto& settings = run.scene.run;
+  const double factor = (ice.options.planes.x ? 2.0 : 1.0) * (ice.options.planes.y ? 2.0 : 1.0);
+  std::optional<BendingRig> rig = rig_of(run);
+  results::TimeSeries series(run.folder + "/series/ice.csv", columns());
+  IceFrames frames(run.folder);
+  const double interval = settings.frame_interval > 0 ? settings.frame_interval : settings.end_time;
+  int frame = 0, row = 0;
+
+  double dt = settings.step_factor * stable_step(ice);
+  internal_forces(ice, 0);
+  advance_velocities(ice, {}, {}, 0, dt);
+  while (true) {
+    const bool last = ice.solid.time >= settings.end_time;
+    if (last || ice.solid.time >= row * interval / rows_per_frame) {
+      append_row(series, run, rig, factor, dt);
+      row = static_cast<int>(ice.solid.time * rows_per_frame / interval) + 1;
+    }
+    if (last || ice.solid.time >= frame * interval) {
+      const auto lap = run.watch.lap("frames");
+      frames.write(frame, ice);
+      frame = static_cast<int>(ice.solid.time / interval) + 1;
+    }
+    if (last) break;
+    convert_failed_elements(ice);
+    if (rig) move_rollers(*rig, ice, ice.solid.time, dt);
+    advance_positions(ice, dt);
+    {
+      const auto lap = run.watch.lap("internal_forces");
+      internal_forces(ice, dt);
+    }
+    const double next = std::min(settings.step_factor * stable_step(ice), 1.1 * dt);
+    advance_velocities(ice, {}, {}, dt, next);
+    run.smallest_step = std::min(run.smallest_step, dt);
+    ++run.steps;
+    dt = next;
+  }
+}
+
+}  // namespace polynya::ice
