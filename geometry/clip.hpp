@@ -69,15 +69,16 @@ class TriangleClipper {
       last = std::max(last, slab);
     }
     if (first == last) return in_slab<axis>(polygon, first);
-    Polygon lower, upper, rest;
+    Polygon lower;
+    std::array<Polygon, 2> upper;  // in turn: what remains above the last plane
     const Polygon* remaining = &polygon;
     for (std::int32_t plane = first + 1; plane <= last; ++plane) {
-      split<axis>(*remaining, plane, lower, upper);
+      Polygon& next = upper[static_cast<std::size_t>(plane & 1)];
+      split<axis>(*remaining, plane, lower, next);
       in_slab<axis>(lower, plane - 1);
-      std::swap(rest, upper);
-      remaining = &rest;
+      remaining = &next;
     }
-    in_slab<axis>(rest, last);
+    in_slab<axis>(*remaining, last);
   }
 
   template <std::size_t axis>

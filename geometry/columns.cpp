@@ -99,7 +99,7 @@ class ColumnWalk {
     }
     if (!present) return chunk_.cells.values.resize(first);
     chunk_.row_of_k[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(chunk_.cells.size());
-    chunk_.cells.add(i_, j_, k);
+    chunk_.cells.place.push_back({i_, j_, k});
     chunk_.overlapping_cells += total > volume * (1.0 + 1e-9);
   }
 
@@ -127,7 +127,7 @@ class ColumnWalk {
       rows.values.push_back(fraction);
     }
     if (!present) return rows.values.resize(first);
-    rows.add(i_, j_, k);
+    rows.place.push_back({i_, j_, k});
     const double excess = total - std::clamp(total, 0.0, 1.0);
     if (std::abs(excess) > negligible)
       chunk_.excesses.push_back({static_cast<std::int32_t>(axis), i_, j_, k, excess * area});
@@ -162,17 +162,13 @@ class ColumnWalk {
 
 }  // namespace
 
-void Rows::clear() {
-  i.clear();
-  j.clear();
-  k.clear();
-  values.clear();
-}
-
-void Rows::add(std::int32_t at_i, std::int32_t at_j, std::int32_t at_k) {
-  i.push_back(at_i);
-  j.push_back(at_j);
-  k.push_back(at_k);
+void Rows::sort_by_level(std::size_t levels, std::vector<std::int32_t>& start) {
+  start.assign(levels + 1, 0);
+  for (const Place& at : place) ++start[static_cast<std::size_t>(at.k) + 1];
+  for (std::size_t k = 1; k <= levels; ++k) start[k] += start[k - 1];
+  order.resize(place.size());
+  for (std::size_t r = 0; r < place.size(); ++r)
+    order[static_cast<std::size_t>(start[static_cast<std::size_t>(place[r].k)]++)] = static_cast<std::int32_t>(r);
 }
 
 void ColumnChunk::clear() {
@@ -203,6 +199,8 @@ void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies, std
   chunk.row_of_k.resize(slabs);
   if (chunk.sums.size() != slabs * bodies.size()) chunk.sums.assign(slabs * bodies.size(), CellSum{});
   for (std::size_t column = begin; column < end; ++column) ColumnWalk(grid, bodies, records, column, chunk).run();
+  chunk.cells.sort_by_level(slabs, chunk.start);
+  for (Rows& rows : chunk.faces) rows.sort_by_level(slabs, chunk.start);
 }
 
 }  // namespace polynya::geometry

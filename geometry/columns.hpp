@@ -10,15 +10,24 @@
 /// From the records of clipped triangles to cells and faces, one column of cells after the other. Internal to the room.
 namespace polynya::geometry {
 
+/// Where a cell or face lies.
+struct Place {
+  std::int32_t i, j, k;
+};
+
 /// Rows of output of a chunk of columns: where they belong and, per body, their values.
 struct Rows {
-  std::vector<std::int32_t> i, j, k;
+  std::vector<Place> place;
   std::vector<double> values;          ///< [rows][stride]
   std::vector<std::int64_t> position;  ///< [rows], place in the sorted output
+  std::vector<std::int32_t> order;     ///< rows by position: written in this order, the output is filled in streams
 
-  std::size_t size() const { return k.size(); }
-  void clear();
-  void add(std::int32_t at_i, std::int32_t at_j, std::int32_t at_k);
+  std::size_t size() const { return place.size(); }
+  void clear() {
+    place.clear();
+    values.clear();
+  }
+  void sort_by_level(std::size_t levels, std::vector<std::int32_t>& start);
 };
 
 /// Values of a cell per body: volume, outward area vector, velocity.
@@ -61,6 +70,7 @@ struct ColumnChunk {
   std::vector<CellSum> sums;           ///< scratch [cells along z + 1][bodies]
   std::vector<ColumnShade> shade;      ///< scratch [bodies]
   std::vector<std::int32_t> row_of_k;  ///< scratch [cells along z + 1]
+  std::vector<std::int32_t> start;     ///< scratch of sorting
 
   void clear();
 };

@@ -19,20 +19,21 @@ std::size_t sort_rows(std::vector<ColumnChunk>& chunks, Rows& (*rows_of)(ColumnC
                       std::vector<std::int64_t>& next) {
   std::ranges::fill(next, 0);
   for (ColumnChunk& chunk : chunks)
-    for (std::int32_t k : rows_of(chunk).k) ++next[static_cast<std::size_t>(k) + 1];
+    for (const Place& at : rows_of(chunk).place) ++next[static_cast<std::size_t>(at.k) + 1];
   for (std::size_t k = 1; k < next.size(); ++k) next[k] += next[k - 1];
   for (ColumnChunk& chunk : chunks) {
     Rows& rows = rows_of(chunk);
     rows.position.resize(rows.size());
-    for (std::size_t r = 0; r < rows.size(); ++r) rows.position[r] = next[static_cast<std::size_t>(rows.k[r])]++;
+    for (std::size_t r = 0; r < rows.size(); ++r) rows.position[r] = next[static_cast<std::size_t>(rows.place[r].k)]++;
   }
   return static_cast<std::size_t>(next.back());
 }
 
 void scatter_cells(const GridLines& grid, const Rows& rows, CutCells& out) {
   const std::size_t bodies = out.bodies;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const auto at = static_cast<std::size_t>(rows.position[r]);
+  for (std::int32_t row : rows.order) {
+    const auto r = static_cast<std::size_t>(row), at = static_cast<std::size_t>(rows.position[r]);
+    const Place& place = rows.place[r];
     double total = 0;
     for (std::size_t b = 0; b < bodies; ++b) {
       const double* value = rows.values.data() + (r * bodies + b) * cell_stride;
@@ -43,22 +44,23 @@ void scatter_cells(const GridLines& grid, const Rows& rows, CutCells& out) {
         out.wall_velocity[(at * bodies + b) * 3 + d] = value[4 + d];
       }
     }
-    const double volume = grid.width(0, rows.i[r]) * grid.width(1, rows.j[r]) * grid.width(2, rows.k[r]);
-    out.cell[at] = grid.cell_index(rows.i[r], rows.j[r], rows.k[r]);
+    const double volume = grid.width(0, place.i) * grid.width(1, place.j) * grid.width(2, place.k);
+    out.cell[at] = grid.cell_index(place.i, place.j, place.k);
     out.solid_volume[at] = std::clamp(total, 0.0, volume);
     out.debris_volume[at] = 0;
   }
 }
 
 void scatter_faces(const Rows& rows, std::int64_t count_x, std::int64_t count_y, std::size_t bodies, CutFaces& out) {
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const auto at = static_cast<std::size_t>(rows.position[r]);
+  for (std::int32_t row : rows.order) {
+    const auto r = static_cast<std::size_t>(row), at = static_cast<std::size_t>(rows.position[r]);
+    const Place& place = rows.place[r];
     double total = 0;
     for (std::size_t b = 0; b < bodies; ++b) {
       out.body_solid[at * bodies + b] = rows.values[r * bodies + b];
       total += rows.values[r * bodies + b];
     }
-    out.face[at] = rows.i[r] + count_x * (rows.j[r] + count_y * rows.k[r]);
+    out.face[at] = place.i + count_x * (place.j + count_y * place.k);
     out.solid[at] = std::clamp(total, 0.0, 1.0);
   }
 }
