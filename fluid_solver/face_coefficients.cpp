@@ -43,7 +43,12 @@ void update_face_coefficients(Fluid& fluid) {
   double* beta = fluid.node_fraction.data();
   for_rows(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t begin = grid.at(1, j, k), end = begin + grid.nx + 1;
-    for (std::ptrdiff_t n = begin; n < end; ++n) beta[n] = std::min(b0[n], b1[n]);
+    const double *v0 = fluid.before.volume.data(), *v1 = fluid.after.volume.data();
+    double* change = fluid.volume_change.data();
+    for (std::ptrdiff_t n = begin; n < end; ++n) {
+      beta[n] = std::min(b0[n], b1[n]);
+      change[n] = v1[n] - v0[n];
+    }
   });
   for_rows(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
@@ -67,6 +72,14 @@ void update_face_coefficients(Fluid& fluid) {
       az[i] = bz > 0 ? szz / (bz > 0 ? bz : 1.0) : 0.0;
     }
   });
+}
+
+void apply_to_cells(Fluid& fluid, const VolumeCorrection& correction) {
+  for (std::size_t c = 0; c < correction.cells.size(); ++c) fluid.volume_change[correction.cells[c]] += correction.outflow[c];
+}
+
+void apply_to_faces(Fluid& fluid, const VolumeCorrection& correction, double dt) {
+  for (const auto& [face, axis, volume] : correction.faces) fluid.face_rate[axis][face] += volume / dt;
 }
 
 }  // namespace polynya::fluid

@@ -15,7 +15,7 @@ Fluid::Fluid(Grid grid_in, Setup setup_in)
     for (auto& array : *arrays) array.assign(size, 0.0);
   }
   for (auto* array : {&pressure, &predicted_pressure, &density, &bulk_modulus, &sound_speed, &total_mass, &node_fraction,
-                      &node_mass, &viscosity, &rate, &donor_mass}) {
+                      &node_mass, &volume_change, &viscosity, &rate, &donor_mass}) {
     array->assign(size, 0.0);
   }
   for (auto& d : donor) d.mass = d.energy = d.volume = std::vector<double>(size, 0.0);

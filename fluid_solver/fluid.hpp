@@ -60,6 +60,7 @@ struct Fluid {
   compute::Stopwatch watch;
   double time = 0;
   long steps = 0;
+  int correction_iterations = 0;              ///< of the last step's volume correction
 
   // Valid from the beginning of a step; kept for output and for the loads on solids.
   std::vector<double> pressure;            ///< absolute, at the centre of the whole cell, Pa
@@ -75,6 +76,7 @@ struct Fluid {
   std::array<std::vector<double>, 3> force;             ///< hourglass force of nodes, N
   std::array<std::vector<double>, 3> next_velocity;
   std::vector<double> node_fraction, node_mass;
+  std::vector<double> volume_change;                    ///< of cells by what is not flow through faces, m^3
   std::vector<double> viscosity;                        ///< hourglass coefficient of cells, kg/s
   std::vector<double> rate;                             ///< of volume, at the beginning of the step, m^3/s
   struct Donor {

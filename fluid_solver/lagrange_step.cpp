@@ -53,6 +53,7 @@ void predict_pressure(Fluid& fluid, double dt) {
     const std::ptrdiff_t row = grid.at(0, j, k);
     const double *qx = fluid.face_rate[0].data() + row, *qy = fluid.face_rate[1].data() + row, *qz = fluid.face_rate[2].data() + row;
     const double *v0 = fluid.before.volume.data() + row, *v1 = fluid.after.volume.data() + row;
+    const double* change = fluid.volume_change.data() + row;
     const double *p = fluid.pressure.data() + row, *bulk = fluid.bulk_modulus.data() + row;
     const double *rho = fluid.density.data() + row, *sound = fluid.sound_speed.data() + row;
     const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
@@ -64,7 +65,7 @@ void predict_pressure(Fluid& fluid, double dt) {
     const double floor0 = fluid.setup.pressure_floor[0], floor1 = fluid.setup.pressure_floor[1];
     const double* dx = grid.dx.data();
     for (int i = 1; i <= grid.nx; ++i) {
-      const double r = qx[i + 1] - qx[i] + qy[i + sy] - qy[i] + qz[i + sz] - qz[i] + (v1[i] - v0[i]) * over_dt;
+      const double r = qx[i + 1] - qx[i] + qy[i + sy] - qy[i] + qz[i + sz] - qz[i] + change[i] * over_dt;
       rate[i] = r;
       const double strain = r / (v0[i] > 0 ? v0[i] : 1.0), length = std::min(dx[i], thickness);
       const double closing = strain < 0 ? -strain : 0.0;
@@ -125,7 +126,7 @@ void work_and_donors(Fluid& fluid, double dt) {
   const double lifted = row_sum(grid, 0, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
     const double *qx = fluid.face_rate[0].data() + row, *qy = fluid.face_rate[1].data() + row, *qz = fluid.face_rate[2].data() + row;
-    const double *v0 = fluid.before.volume.data() + row, *v1 = fluid.after.volume.data() + row;
+    const double *v0 = fluid.before.volume.data() + row, *swept = fluid.volume_change.data() + row;
     const double *p = fluid.predicted_pressure.data() + row, *rho = fluid.density.data() + row, *mass = fluid.total_mass.data() + row;
     double* __restrict mixture = fluid.donor_mass.data() + row;
     double* __restrict rate = fluid.rate.data() + row;
@@ -133,8 +134,8 @@ void work_and_donors(Fluid& fluid, double dt) {
     double work = 0;
     for (int i = 1; i <= grid.nx; ++i) {
       const double flow = qx[i + 1] - qx[i] + qy[i + sy] - qy[i] + qz[i + sz] - qz[i];
-      rate[i] = flow + (v1[i] - v0[i]) / dt;
-      const double lagrangian = v0[i] + (dt * flow + (v1[i] - v0[i]));
+      rate[i] = flow + swept[i] / dt;
+      const double lagrangian = v0[i] + (dt * flow + swept[i]);
       mixture[i] = lagrangian > 0 ? mass[i] / (lagrangian > 0 ? lagrangian : 1.0) : 0.0;
       work += qz[i] * (low * rho[i - sz] + high * rho[i]);
     }

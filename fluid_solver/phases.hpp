@@ -1,15 +1,9 @@
 #pragma once
 #include "fluid_solver/fluid.hpp"
+#include "fluid_solver/volume_correction.hpp"
 
 /// The phases of a step, in the order of step.cpp. Each lives in the file named after it.
 namespace polynya::fluid {
-
-/// Wall pieces of one step: mean area vectors, the velocity of the motion, and what the change of volume is made of.
-struct StepWall {
-  std::ptrdiff_t cell = 0;
-  std::array<std::array<double, 3>, 2> area{}, velocity{};
-  double debris_change = 0;  ///< m^3
-};
 
 /// cell_states.cpp: pressure, density, stiffness from masses, energies and the free volumes given; mixed cells are
 /// brought to pressure equilibrium.
@@ -26,6 +20,9 @@ void mix_groups(Fluid& fluid);
 /// face_coefficients.cpp
 std::vector<StepWall> join_walls(const CutGeometry& before, const CutGeometry& after);
 void update_face_coefficients(Fluid& fluid);
+/// Adds the correction's volumes to the change of volume that cells feel, and later to what flows through faces.
+void apply_to_cells(Fluid& fluid, const VolumeCorrection& correction);
+void apply_to_faces(Fluid& fluid, const VolumeCorrection& correction, double dt);
 
 /// boundaries.cpp: ghost pressures at open boundaries, ghost values for the remap, walls and their accounts.
 void set_boundary_pressure(Fluid& fluid);
@@ -41,7 +38,7 @@ void predict_pressure(Fluid& fluid, double dt);
 void accelerate_nodes(Fluid& fluid, double dt);
 void work_and_donors(Fluid& fluid, double dt);
 /// wall_account.cpp
-void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls);
+void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls, const VolumeCorrection& correction);
 
 /// Replaces the face rates by the means of those at the two ends of the acceleration.
 void mean_face_rates(Fluid& fluid);

@@ -7,13 +7,17 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
   if (!(dt > 0)) throw std::invalid_argument("a fluid step must be longer than 0 s");
   Account& account = fluid.account;
   std::vector<StepWall> walls;
+  VolumeCorrection correction;
   {
     const auto lap = fluid.watch.lap("geometry");
     std::swap(fluid.before, fluid.after);
     fluid.after.set(fluid.grid, fluid.setup.boundary, overlap);
     fluid.groups = find_groups(fluid.grid, fluid.before, fluid.after, fluid.label);
     walls = join_walls(fluid.before, fluid.after);
+    correction = correct_volumes(fluid.grid, fluid.before, fluid.after, walls, dt, fluid.label);
+    fluid.correction_iterations = correction.iterations;
     update_face_coefficients(fluid);
+    apply_to_cells(fluid, correction);
   }
   {
     const auto lap = fluid.watch.lap("equation of state");
@@ -32,14 +36,15 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     mean_face_rates(fluid);
     work_and_donors(fluid, dt);
     set_group_donors(fluid, dt);
-    book_walls(fluid, dt, walls);
+    book_walls(fluid, dt, walls, correction);
     book_boundary(fluid, dt, walls);
     kinetic_before_remap = kinetic_energy(fluid, fluid.next_velocity);
   }
   {
     const auto lap = fluid.watch.lap("remap");
-    remap_cells(fluid, dt);
     book_boundary_flow(fluid, dt);
+    apply_to_faces(fluid, correction, dt);
+    remap_cells(fluid, dt);
     mix_groups(fluid);
     copy_face_mass_to_ghosts(fluid);
     copy_velocity_to_ghosts(fluid);

@@ -1,26 +1,26 @@
 // What the fluid gave to the bodies in a step, and what the change of volume was made of: the walls' motion, debris, and
-// the rest, which the mean areas and velocities cannot express (second order in the step; the clamping of slivers).
+// the rest that the volume correction could not balance among neighbours.
 #include "fluid_solver/phases.hpp"
 
 namespace polynya::fluid {
 
-void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls) {
+void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls, const VolumeCorrection& correction) {
   Account& account = fluid.account;
   const Grid& grid = fluid.grid;
   for (const StepWall& wall : walls) {
     const double p = fluid.predicted_pressure[wall.cell];
-    double defect = fluid.after.volume[wall.cell] - fluid.before.volume[wall.cell] + wall.debris_change;
     for (int body = 0; body < 2; ++body) {
-      double swept = 0;
       for (int axis = 0; axis < 3; ++axis) {
-        account.body_impulse[body][axis] += dt * p * wall.area[body][axis];
-        swept += dt * wall.area[body][axis] * wall.velocity[body][axis];
+        const double impulse = dt * p * wall.area[body][axis];
+        account.body_impulse[body][axis] += impulse;
+        account.wall_work[body] += impulse * wall.velocity[body][axis];
       }
-      account.wall_work[body] += p * swept;
-      defect -= swept;
     }
     account.debris_work -= p * wall.debris_change;
-    account.swept_defect += p * defect;
+    account.swept_defect += p * unexplained_change(wall, fluid.before, fluid.after, dt);
+  }
+  for (std::size_t c = 0; c < correction.cells.size(); ++c) {
+    account.swept_defect += fluid.predicted_pressure[correction.cells[c]] * correction.outflow[c];
   }
   if (fluid.setup.gravity == 0) return;
   // Weight as the faces carry it: gravity times half the density of each side over the open area.

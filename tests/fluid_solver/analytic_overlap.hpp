@@ -85,7 +85,7 @@ inline Solid solid(const Box& box) {
           }};
 }
 
-inline Solid solid(const Revolution& body, int pieces = 32) {
+inline Solid solid(const Revolution& body, int pieces = 8) {
   const auto radius = [body](double z) { return z < body.bottom || z > body.top ? 0.0 : body.radius(z); };
   const auto chord = [=](double z, double offset, double t0, double t1) {
     const double r = radius(z), half = std::sqrt(std::max(0.0, r * r - offset * offset));

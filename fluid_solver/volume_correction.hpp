@@ -1,0 +1,40 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "fluid_solver/cut_geometry.hpp"
+
+namespace polynya::fluid {
+
+/// Wall pieces of one step: mean area vectors, the velocity of the motion, and what the change of volume is made of.
+struct StepWall {
+  std::ptrdiff_t cell = 0;
+  std::array<std::array<double, 3>, 2> area{}, velocity{};
+  double debris_change = 0;  ///< m^3
+};
+
+/// Mean areas times wall velocity miss the true change of a cell's free volume, by much where a wall crosses a face of
+/// the grid within the step; taken at face value the miss would be compression. These volumes, moved between
+/// neighbouring cells near the walls by the remap alone, make up for it (OVERLAP 10): what enters one cell leaves
+/// another, and what cannot be balanced among neighbours stays and is felt as pressure.
+struct VolumeCorrection {
+  struct Face {
+    std::ptrdiff_t face;
+    int axis;
+    double volume;  ///< through the lower face of the cell, m^3
+  };
+  std::vector<Face> faces;
+  std::vector<std::ptrdiff_t> cells;
+  std::vector<double> outflow;  ///< of those cells, m^3
+  int iterations = 0;
+};
+
+/// `label` is scratch of the grid's size, -1 everywhere, and is left so.
+VolumeCorrection correct_volumes(const Grid& grid, const CutGeometry& before, const CutGeometry& after,
+                                 const std::vector<StepWall>& walls, double dt, std::vector<std::int32_t>& label);
+
+/// Change of free volume of a wall cell that neither the wall's motion nor debris explains, m^3.
+double unexplained_change(const StepWall& wall, const CutGeometry& before, const CutGeometry& after, double dt);
+
+}  // namespace polynya::fluid
