@@ -113,10 +113,6 @@ void begin(Run& run, const std::vector<std::string>& names) {
     const exchange::Message answer = run.conversation.hub.receive(fluid.name, "pressure");
     fluid.stable_step = answer.header.at("stable_step").get<double>();
     fluid.account.set_initial(answer);
-    // The first span starts with the pressures of the start: walls before and now are the same.
-    const WallPressure start = read_pressure(answer, "pressure.", cells.cell.size());
-    const double span = static_cast<double>(run.keeper.windows_left - 1) * run.keeper.step;
-    run.overlap->give_first_impulses(run.conversation, start, span, run.ledger);
   }
   run.monitor.emplace(run.scene, run.folder, run.conversation);
   begin_solids(run.conversation, run.keeper.step);
@@ -163,6 +159,7 @@ void exchange_with_fluid(Run& run, bool finish, long frame) {
   const WallPressure at_start = read_pressure(answer, "pressure.previous_", run.overlap->before().cell.size());
   const WallPressure at_end = read_pressure(answer, "pressure.", cells.cell.size());
   run.overlap->give_impulses(run.conversation, at_start, at_end, length, run.ledger);
+  run.ledger.fluid_reported = {fluid.account.change("impulse_vehicle_z"), fluid.account.change("impulse_ice_z")};
   run.monitor->note_pressure(cells, at_end);
 }
 

@@ -61,21 +61,19 @@ Balance balance(const Conversation& conversation, const Ledger& ledger) {
   Balance sum;
   for (const SolidSide& side : conversation.solids) {
     double& stored = side.body == Body::vehicle ? sum.vehicle : sum.ice;
-    stored = side.account.change({"kinetic", "internal", "hourglass", "viscous", "conversion_heat", "particle_kinetic",
-                                  "particle_internal", "particle_viscous"});
+    stored = side.account.change({"kinetic", "internal", "hourglass", "viscous", "conversion_heat"});
     sum.external += side.account.change("gravity_work") - side.account.change("boundary_flux");
     sum.numerical += side.account.change("step_change");
-    const Impulse held = outstanding(side);
-    sum.momentum += side.account.change("momentum_z") - side.account.change("boundary_impulse_z") -
-                    side.account.change("gravity_impulse_z") + held[2];
+    sum.momentum += side.account.change("momentum_z") + side.account.change("boundary_impulse_z") -
+                    side.account.change("gravity_impulse_z") + outstanding(side)[2] -
+                    ledger.fluid_weight[static_cast<int>(side.body)];
   }
   if (conversation.fluid) {
     const Account& fluid = conversation.fluid->account;
-    sum.fluid = fluid.change({"kinetic", "internal", "gravity", "remap_loss"});
-    sum.external += fluid.change({"boundary_work", "boundary_energy"});
-    sum.numerical += fluid.change({"swept_defect", "debris_work", "node_fix_work"});
-    sum.momentum += fluid.change("momentum_z") - fluid.change("boundary_impulse_z") -
-                    fluid.change("gravity_impulse_z");
+    sum.fluid = fluid.change({"kinetic", "internal", "gravity", "remap_loss", "hourglass", "node_fix"});
+    sum.external -= fluid.change({"boundary_work", "boundary_energy"});
+    sum.numerical -= fluid.change({"swept_defect", "debris_work"});
+    sum.momentum += fluid.change({"momentum_z", "boundary_impulse_z", "gravity_impulse"});
   }
   sum.contact = ledger.contact_stored + ledger.contact_friction + ledger.contact_released;
   return sum;

@@ -49,6 +49,12 @@ void OverlapExchange::give(SolidSide& side, const Cut& cut, std::int32_t index, 
   geometry::add_pressure_forces(cut.cells, cutter_.grid(), index, surface->view(), pressure.value, pressure.gradient_z,
                                 impulses);
   for (double& value : impulses) value *= factor;
+  double pressure_alone = 0;
+  for (std::size_t e = 0; e < cut.cells.cell.size(); ++e)
+    pressure_alone += pressure.value[e] * cut.cells.wall_area[(e * body_count + static_cast<std::size_t>(index)) * 3 + 2];
+  double vertical = 0;
+  for (std::size_t i = 2; i < impulses.size(); i += 3) vertical += impulses[i];
+  ledger.fluid_weight[index] += vertical - factor * pressure_alone;
   for (std::size_t i = 0; i < impulses.size(); ++i) ledger.fluid_given[static_cast<int>(side.body)][i % 3] += impulses[i];
   add_fluid_impulses(side, surface->ids, surface->positions, impulses);
 }
@@ -60,12 +66,6 @@ void OverlapExchange::give_impulses(Conversation& conversation, const WallPressu
     give(side, before_, body, at_start, 0.5 * span, ledger);
     give(side, now_, body, at_end, 0.5 * span, ledger);
   }
-}
-
-void OverlapExchange::give_first_impulses(Conversation& conversation, const WallPressure& pressure, double span,
-                                          Ledger& ledger) const {
-  for (SolidSide& side : conversation.solids)
-    give(side, now_, static_cast<std::int32_t>(side.body), pressure, span, ledger);
 }
 
 double OverlapExchange::verify_sample(std::uint64_t seed, std::size_t count) const {

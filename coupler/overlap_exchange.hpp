@@ -21,10 +21,6 @@ class OverlapExchange {
   void give_impulses(Conversation& conversation, const WallPressure& at_start, const WallPressure& at_end, double span,
                      Ledger& ledger) const;
 
-  /// The same for the start of a run, where there is only one cut.
-  void give_first_impulses(Conversation& conversation, const WallPressure& pressure, double span,
-                           Ledger& ledger) const;
-
   const geometry::CutCells& before() const { return before_.cells; }
 
   /// Recuts a seeded sample of cells by CGAL's exact kernel. Returns the largest difference relative to the cell's
