@@ -64,7 +64,7 @@ Balance balance(const Conversation& conversation, const Ledger& ledger) {
     stored = side.account.change({"kinetic", "internal", "hourglass", "viscous", "conversion_heat"});
     sum.external += side.account.change("gravity_work") - side.account.change("boundary_flux");
     sum.numerical += side.account.change("step_change");
-    sum.momentum += side.account.change("momentum_z") + side.account.change("boundary_impulse_z") -
+    sum.momentum += side.account.change("momentum_z") - side.account.change("boundary_impulse_z") -
                     side.account.change("gravity_impulse_z") + outstanding(side)[2] -
                     ledger.fluid_weight[static_cast<int>(side.body)];
   }
