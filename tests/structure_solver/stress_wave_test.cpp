@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -16,14 +17,16 @@ double pulse(double time) {
   return time > 0 && time < pulse_length ? std::pow(std::sin(std::numbers::pi * time / pulse_length), 2) : 0;
 }
 
-/// Time at which the curve takes half of its first maximum on the way up.
-double half_rise(const std::vector<double>& curve, double dt) {
-  std::size_t peak = 0;
-  while (peak + 1 < curve.size() && !(curve[peak] > 0.9 && curve[peak + 1] < curve[peak])) ++peak;
-  const double half = 0.5 * curve[peak];
-  std::size_t n = 1;
-  while (n < peak && curve[n] < half) ++n;
-  return dt * (static_cast<double>(n) - (curve[n] - half) / (curve[n] - curve[n - 1]));
+struct Peak {
+  double time = 0, height = 0;
+};
+
+/// Largest value of a curve sampled at dt, 2 dt, ..., by a parabola through it and its neighbours.
+Peak peak_of(const std::vector<double>& curve, double dt) {
+  const std::size_t n = static_cast<std::size_t>(std::max_element(curve.begin(), curve.end() - 1) - curve.begin());
+  const double before = curve[n - 1], at = curve[n], after = curve[n + 1];
+  const double shift = 0.5 * (before - after) / (before - 2 * at + after);
+  return {dt * (static_cast<double>(n) + 1 + shift), at};
 }
 
 TEST(StressWave, CrossesTheSolidBarAtTheBarSpeed) {
@@ -33,7 +36,7 @@ TEST(StressWave, CrossesTheSolidBarAtTheBarSpeed) {
   BuiltVehicle vehicle = build_vehicle(scene);
   VehicleBody& body = *vehicle.body;
   const auto& mesh = vehicle.mesh;
-  const double base = -0.004 - 0.1, tail_section = base + 0.02, head_section = base + 0.08;
+  const double base = -0.004 - 0.1, tail_section = base + 0.02, head_section = base + 0.06;
 
   // The base is pushed evenly; the pulse is followed between two sections of the cylinder.
   std::vector<double> share(body.hull_vertices(), 0.0);
@@ -59,7 +62,7 @@ TEST(StressWave, CrossesTheSolidBarAtTheBarSpeed) {
   const double modulus = 68.9e9, bar_speed = std::sqrt(modulus / 2700);
   const double area = std::numbers::pi * 25e-6, particle_speed = 4 * force / (area * 2700 * bar_speed);
   body.finish_step({}, 0, dt);
-  for (int n = 1; n * dt < 26e-6; ++n) {
+  for (int n = 1; n * dt < 24e-6; ++n) {
     body.advance_positions(dt);
     body.internal_forces(dt);
     body.hull_motion(positions, velocities);
@@ -68,10 +71,13 @@ TEST(StressWave, CrossesTheSolidBarAtTheBarSpeed) {
     for (std::size_t v = 0; v < share.size(); ++v) load[3 * v + 2] = force * pulse(n * dt) * share[v] / loaded;
     body.finish_step(load, dt, dt);
   }
-  const double travel = half_rise(at_head, dt) - half_rise(at_tail, dt);
-  EXPECT_NEAR(distance / travel / bar_speed, 1, 0.02);
-  // One-dimensional theory: particle speed = force / (area rho c), the pulse keeps its height.
-  EXPECT_NEAR(*std::max_element(at_head.begin(), at_head.begin() + static_cast<long>(20e-6 / dt)), 1, 0.05);
+  const Peak first = peak_of(at_tail, dt), last = peak_of(at_head, dt);
+  // Rayleigh's lateral inertia slows a wave of 60 mm in a bar of 5 mm radius: the phase by 0.7 %, the group by 2 %; the
+  // pulse lies between long waves and these.
+  EXPECT_NEAR(distance / (last.time - first.time) / bar_speed, 0.99, 0.01);
+  // One-dimensional theory: particle speed = force / (area rho c), and the pulse keeps its height.
+  EXPECT_NEAR(first.height, 1, 0.01);
+  EXPECT_NEAR(last.height, 1, 0.01);
 }
 
 }  // namespace

@@ -113,7 +113,9 @@ TEST(VehicleMotion, StruckAtTheNoseItGainsTheImpulseAndItsEnergyBalances) {
       const Flight flight = fly(vehicle, pulse, 5e-8, 1000, symmetry == scene::Symmetry::half ? 2 : 1);
       EXPECT_NEAR(flight.end.momentum[0] - flight.start.momentum[0], 0.6 * flight.impulse, 1e-12 * flight.impulse);
       EXPECT_NEAR(flight.end.momentum[2] - flight.start.momentum[2], -0.8 * flight.impulse, 1e-11 * flight.impulse);
-      if (symmetry == scene::Symmetry::full) EXPECT_NEAR(flight.end.momentum[1], 0, 1e-11 * flight.impulse);
+      if (symmetry == scene::Symmetry::full) {
+        EXPECT_NEAR(flight.end.momentum[1], 0, 1e-11 * flight.impulse);
+      }
       const double exchanged = std::abs(flight.end.external_work);
       EXPECT_GT(exchanged, 0.05);
       // Elastic: to rounding. Rigid: the torque's work has an error of second order in the step.
