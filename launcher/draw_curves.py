@@ -109,7 +109,8 @@ def force_panel(ax: pyplot.Axes, scene: dict, _summary: dict, series: Series) ->
     for name, label, color in shown:
         ax.plot(time * MILLI, series[name] * factor, color=color, lw=0.4, alpha=0.35)
         ax.plot(time * MILLI, smooth[name] * factor, color=color, lw=1.4, label=label)
-    limit_to(ax, numpy.array(list(smooth.values())) * factor, numpy.array([series[name] for name, *_ in shown]) * factor)
+    raw = numpy.array([series[name] for name in smooth])
+    limit_to(ax, numpy.array(list(smooth.values())) * factor, raw * factor)
     ax.set_ylabel(f"force on vehicle  [{prefix}N]")
     ax.legend(loc="upper right", ncols=2)
 

@@ -8,7 +8,7 @@ import numpy
 from matplotlib import pyplot
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import EllipseCollection, PolyCollection
-from matplotlib.colors import Normalize, SymLogNorm
+from matplotlib.colors import Normalize
 from matplotlib.ticker import MaxNLocator
 from scipy.spatial import ConvexHull
 
@@ -28,7 +28,8 @@ def draw_section(ax: pyplot.Axes, section: Section, view: View, what: str) -> No
         mesh(ax, section, view, "water_fraction", cmap=style.WATER_MAP, vmin=0, vmax=1)
     plain = what == "pressure"
     if section.ice is not None:
-        cells(ax, section.ice, section.ice_damage, view, Normalize(0, 1), style.DAMAGE_MAP, "#f4f4f4" if plain else None)
+        cells(ax, section.ice, section.ice_damage, view, Normalize(0, 1), style.DAMAGE_MAP,
+              "#f4f4f4" if plain else None)
     if section.particles is not None:
         dots(ax, section, view, "#dddddd" if plain else None)
     if section.vehicle is not None and len(section.vehicle):

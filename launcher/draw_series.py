@@ -18,13 +18,15 @@ def draw_columns(scene: dict, series: Series, path: Path) -> Path | None:
     abscissa = next(iter(series.columns))
     groups: dict[str, list[str]] = {}
     for name in list(series.columns)[1:]:
-        if name not in ("step", "window", "span") and numpy.isfinite(series[name]).any() and numpy.ptp(series[name]) > 0:
+        values = series[name][numpy.isfinite(series[name])]
+        if name not in ("step", "window", "span") and len(values) and numpy.ptp(values) > 0:
             groups.setdefault(series.units[name], []).append(name)
     if not groups or len(series) < 2:
         return None
     figure, axes = pyplot.subplots(len(groups), 1, figsize=(7.4, 0.9 + 1.75 * len(groups)), sharex=True, squeeze=False)
     for ax, (unit, names) in zip(axes[:, 0], groups.items()):
-        factor, prefix = style.scale(max(numpy.nanmax(abs(series[name])) for name in names)) if unit in SCALED else (1.0, "")
+        largest = max(numpy.nanmax(abs(series[name])) for name in names)
+        factor, prefix = style.scale(largest) if unit in SCALED else (1.0, "")
         for name in names:
             ax.plot(series[abscissa] * MILLI, series[name] * factor, label=name.replace("_", " "), lw=1.2)
         ax.set_ylabel(f"[{prefix}{unit}]" if unit else "")

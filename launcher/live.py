@@ -86,7 +86,7 @@ def finished_share(scene: dict, row: dict[str, float]) -> float | None:
 
 
 def time_to_position(scene: dict, row: dict[str, float]) -> float:
-    """Time until the vehicle, at its present speed, has passed or left the ice; infinite if that does not end the run."""
+    """Time until the vehicle, at its present speed, has passed or left the ice; infinite if that ends nothing."""
     vehicle, ice, end = scene.get("vehicle"), scene.get("ice"), (scene.get("run") or {}).get("end")
     speed = row.get("vehicle_speed", 0.0)
     if not vehicle or not ice or end not in ("ice_passed", "exited") or speed <= 0:

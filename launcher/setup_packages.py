@@ -48,8 +48,8 @@ def install_missing(path: str) -> int:
     """Installs what the list names and the machine lacks. Returns an exit code; says everything on stderr."""
     names = read_names(path)
     if shutil.which("dpkg-query") is None or shutil.which("apt-get") is None:
-        say("set-up needs Debian or a relative of it (apt-get and dpkg-query were not found). Install these packages or "
-            "their equivalents in a Debian 12 container: " + " ".join(names))
+        say("set-up needs Debian or a relative of it: apt-get and dpkg-query were not found. Use a Debian 12 container; "
+            "it needs " + " ".join(names))
         return FAILED
     present = installed(names)
     missing = [name for name in names if name not in present]

@@ -106,7 +106,7 @@ def effect_reports(scene: dict, found: dict, processes: dict[str, dict]) -> dict
 
 
 def merge(folder: Path, scene: dict, names: list[str], outcome: Outcome, wall_time: float) -> dict:
-    """Writes RUN/summary.json and returns it. All in SI; the keys are there whatever happened, without meaning: null."""
+    """Writes RUN/summary.json and returns it. All in SI; every key is there whatever happened, null if it means nothing."""
     speaker = "coupler" if len(names) > 1 else names[0]
     found = read_json(folder / f"{speaker}_summary.json")
     series = progress(folder, names)

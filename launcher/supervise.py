@@ -23,7 +23,9 @@ UNTIL_MISSED = 60.0   # s that a solver may write results after the coupler has 
 PR_SET_PDEATHSIG = 1
 LIBC = ctypes.CDLL(None, use_errno=True)
 # Sentences of a process that fails only because another one did.
-SECONDARY = re.compile(r"\b(lost|vanished|stopped|missing|refused|disconnected|gone|timed out|closed the connection|no coupler)\b", re.IGNORECASE)
+SECONDARY = re.compile(
+    r"\b(lost|vanished|stopped|missing|refused|disconnected|gone|timed out|closed the connection|no coupler)\b",
+    re.IGNORECASE)
 LOG_PREFIX = re.compile(r"^(\[[^\]]*\]\s*)+")
 
 
@@ -131,6 +133,8 @@ class Supervisor:
             for plan in self.plans:
                 self.children.append(start(plan, self.logs))
             reason, exit_code = self.watch()
+        except Failure as error:
+            reason, exit_code = str(error), FAILED
         finally:
             self.stop_all()
             for number, handler in before.items():

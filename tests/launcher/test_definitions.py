@@ -59,7 +59,7 @@ class Deceleration(unittest.TestCase):
         self.assertAlmostEqual(numpy.trapz(filtered, time), invented.LOSS, delta=1e-3)
 
     def test_filtered_is_quiet_where_raw_is_noisy(self):
-        """White noise of the speed leaves (2 pi f)^2 per frequency in its derivative: nearly all far above the filter."""
+        """Of white noise in the speed the derivative holds (2 pi f)^2: nearly all of it far above the filter."""
         time = numpy.linspace(0, 1e-3, 3001)
         noise = numpy.random.default_rng(5).normal(0, 0.01, len(time))
         raw = definitions.raw_deceleration(time, noise)

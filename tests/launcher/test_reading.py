@@ -53,7 +53,8 @@ class Summary(Folder):
     NAMES = ["structure", "ice", "fluid"]
 
     def merge(self, outcome=Outcome(0, None, {"ice": {"cpu_time": 1.0}})) -> dict:
-        result = summary.merge(self.folder, json.loads((self.folder / "scene.json").read_text()), self.NAMES, outcome, 9.0)
+        scene = json.loads((self.folder / "scene.json").read_text())
+        result = summary.merge(self.folder, scene, self.NAMES, outcome, 9.0)
         self.assertEqual(result, json.loads((self.folder / "summary.json").read_text()))
         return result
 
@@ -134,7 +135,8 @@ class Units(unittest.TestCase):
         self.assertEqual(units.readable(1000, "m"), "1.00 km")
         self.assertEqual(units.readable(-0.5, "N"), "-500 mN")
         self.assertEqual(units.readable(None, "N"), "-")
-        self.assertEqual([units.duration(s) for s in (0.5, 42, 185, 7800)], ["0.5 s", "42 s", "3 min 05 s", "2 h 10 min"])
+        self.assertEqual([units.duration(s) for s in (0.5, 42, 185, 7800)],
+                         ["0.5 s", "42 s", "3 min 05 s", "2 h 10 min"])
         self.assertEqual(units.memory(123.4e6), "123 MB")
 
 

@@ -208,6 +208,15 @@ class Death(Run):
         self.assert_nothing_left(popen.pid)  # the next run removed the socket's folder
 
 
+    def test_before_the_first_step_is_one_too(self):
+        (self.programs / "ice_solver").unlink()
+        scene = self.write({"name": "fake", "participants": {"ice": {}, "structure": {"command": f"{FAKE} waits"}}})
+        result = self.run_scene(scene)
+        self.assertEqual(result.returncode, 1)
+        self.assert_one_message(result, "ice_solver could not be started")
+        self.assertEqual(self.summary()["state"], "failed")
+
+
 class Interruption(Run):
     def test_stops_everything_and_leaves_a_summary(self):
         for number in (signal.SIGINT, signal.SIGTERM):
