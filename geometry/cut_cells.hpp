@@ -11,8 +11,8 @@
 namespace polynya::geometry {
 
 /// The wetted surface of one body: triangles oriented outward. The surface is closed, or open only along walls of the
-/// grid (planes of symmetry, sides of the ice): vertices of open edges within half a cell of a wall are taken to lie on
-/// it.
+/// grid (planes of symmetry, sides of the ice). Vertices of open edges, and of triangles that face a wall, are taken to
+/// lie on the wall when they are within half a cell of it: no film of fluid opens beside a side that shrinks a little.
 struct BodySurface {
   std::span<const double> positions;        ///< [vertices][3], m
   std::span<const double> velocities;       ///< [vertices][3], m/s

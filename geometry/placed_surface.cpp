@@ -9,10 +9,11 @@
 namespace polynya::geometry {
 namespace {
 
-constexpr double plane_tolerance =
-    1e-12;  // of a cell: above the rounding of coordinates, far below the promised accuracy
-constexpr double wall_tolerance = 1e-9;  // of a cell
-constexpr double edge_reach = 0.5;       // of a cell: how far a body may shrink from the wall it is cut off at
+// In cells. The first is above the rounding of coordinates and far below the promised accuracy.
+constexpr double plane_tolerance = 1e-12;
+constexpr double wall_tolerance = 1e-9;
+constexpr double wall_reach = 0.5;  // how far a body may shrink from the wall it is cut off at
+constexpr double facing = 0.9;      // least cosine between the normals of a wall and a side that rests on it
 constexpr std::size_t vertex_chunk = 4096;
 
 double wall_cell(const LineLocator& lines, bool last) {
@@ -23,6 +24,21 @@ double wall_cell(const LineLocator& lines, bool last) {
 void put_on_wall(Corner& corner, std::size_t axis, const LineLocator& lines, bool last) {
   corner.x[axis] = last ? lines.lines().back() : lines.lines().front();
   corner.slab[axis] = last ? lines.intervals() : -1;
+}
+
+/// A triangle that faces a wall within reach.
+bool rests_on_wall(const std::array<const Corner*, 3>& corners, std::size_t axis, const LineLocator& lines, bool last) {
+  const double wall = last ? lines.lines().back() : lines.lines().front(), reach = wall_reach * wall_cell(lines, last);
+  for (const Corner* corner : corners)
+    if (std::abs(corner->x[axis] - wall) >= reach) return false;
+  const auto &a = corners[0]->x, &b = corners[1]->x, &c = corners[2]->x;
+  std::array<double, 3> normal;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::size_t u = (d + 1) % 3, w = (d + 2) % 3;
+    normal[d] = (b[u] - a[u]) * (c[w] - a[w]) - (b[w] - a[w]) * (c[u] - a[u]);
+  }
+  const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+  return (last ? normal[axis] : -normal[axis]) > facing * length;
 }
 
 /// The plane that x coincides with, or -1.
@@ -75,6 +91,7 @@ void PlacedSurface::place(const BodySurface& surface, const std::array<LineLocat
   update_topology(surface);
   place_vertices(surface, lines);
   settle_coincidences(lines);
+  attach_facing_sides(lines);
   attach_open_edges(lines);
 }
 
@@ -146,11 +163,31 @@ void PlacedSurface::settle_coincidences(const std::array<LineLocator, 3>& lines)
     }
 }
 
+void PlacedSurface::attach_facing_sides(const std::array<LineLocator, 3>& lines) {
+  facing_.clear();
+  for (std::size_t t = 0; t < triangles_.size(); t += 3) {
+    const auto corner = [&](std::size_t c) -> Corner& { return corners_[static_cast<std::size_t>(triangles_[t + c])]; };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const bool last : {false, true}) {
+        const std::int32_t n = lines[axis].intervals();
+        const auto near = [&](const Corner& a) { return last ? a.slab[axis] >= n - 1 : a.slab[axis] <= 0; };
+        if (!near(corner(0)) || !near(corner(1)) || !near(corner(2))) continue;
+        if (rests_on_wall({&corner(0), &corner(1), &corner(2)}, axis, lines[axis], last))
+          for (std::size_t c = 0; c < 3; ++c)
+            facing_.push_back({triangles_[t + c], static_cast<std::int32_t>(axis), last});
+      }
+  }
+  for (const Coincidence& at : facing_) {
+    const auto axis = static_cast<std::size_t>(at.axis);
+    put_on_wall(corners_[static_cast<std::size_t>(at.vertex)], axis, lines[axis], at.plane != 0);
+  }
+}
+
 void PlacedSurface::attach_open_edges(const std::array<LineLocator, 3>& lines) {
   loose_edges_ = 0;
   for (const auto& edge : open_edges_) {
     Corner &a = corners_[static_cast<std::size_t>(edge[0])], &b = corners_[static_cast<std::size_t>(edge[1])];
-    double nearest = edge_reach;
+    double nearest = wall_reach;
     std::size_t nearest_axis = 0;
     bool nearest_last = false, beyond = false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -165,7 +202,7 @@ void PlacedSurface::attach_open_edges(const std::array<LineLocator, 3>& lines) {
       }
     }
     if (beyond) continue;
-    if (nearest < edge_reach) {
+    if (nearest < wall_reach) {
       put_on_wall(a, nearest_axis, lines[nearest_axis], nearest_last);
       put_on_wall(b, nearest_axis, lines[nearest_axis], nearest_last);
     } else {

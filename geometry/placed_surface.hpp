@@ -28,6 +28,7 @@ class PlacedSurface {
   void update_topology(const BodySurface& surface);
   void place_vertices(const BodySurface& surface, const std::array<LineLocator, 3>& lines);
   void settle_coincidences(const std::array<LineLocator, 3>& lines);
+  void attach_facing_sides(const std::array<LineLocator, 3>& lines);
   void attach_open_edges(const std::array<LineLocator, 3>& lines);
 
   std::vector<Corner> corners_;
@@ -35,6 +36,7 @@ class PlacedSurface {
   std::size_t vertices_ = 0;
   std::vector<std::array<std::int32_t, 2>> open_edges_;
   std::vector<std::vector<Coincidence>> coincidences_;  ///< per chunk of vertices
+  std::vector<Coincidence> facing_;  ///< vertices of sides that rest on a wall; plane: 0 the first, 1 the last
   std::vector<std::array<double, 3>> normals_;
   std::int64_t loose_edges_ = 0;
 };

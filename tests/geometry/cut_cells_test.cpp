@@ -154,7 +154,7 @@ TEST(CutCells, QuarterOfABodyIsAQuarterOfTheCut) {
 }
 
 TEST(CutCells, SidesThatShrinkFromTheWallsStayCutOffThere) {
-  // An open plate whose sides were left out and have moved in by 1e-4 of a cell.
+  // The sides of the plate have moved in by 1e-4 of a cell.
   const GridLines grid = shapes::cube_grid(1.0, 8);
   Shape plate = shapes::box(4), open;
   shapes::scale_and_move(plate, {1 - 2.5e-5, 1 - 2.5e-5, 0.3}, {0, 0, 0.05});
@@ -167,9 +167,12 @@ TEST(CutCells, SidesThatShrinkFromTheWallsStayCutOffThere) {
       open.triangles.insert(open.triangles.end(), plate.triangles.begin() + static_cast<std::ptrdiff_t>(t),
                             plate.triangles.begin() + static_cast<std::ptrdiff_t>(t) + 3);
   }
-  const CutCells cut = cut_once(grid, {open});
-  expect_closed(cut, grid);
-  EXPECT_NEAR(total_volume(cut), 4 * 0.6, 1e-12);
+  for (const Shape& body : {open, plate}) {  // with and without its sides
+    const CutCells cut = cut_once(grid, {body});
+    expect_closed(cut, grid);
+    EXPECT_NEAR(total_volume(cut), 4 * 0.6, 1e-12);
+    for (std::size_t e = 0; e < cut.cell.size(); ++e) EXPECT_NEAR(std::abs(cut.wall_area[3 * e]), 0.0, 1e-15);
+  }
 }
 
 TEST(CutCells, DegenerateConfigurationsStayConsistent) {
