@@ -106,24 +106,11 @@ T equivalent_stress(const SymmetricTensor<T>& s) {
                        3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])));
 }
 
-/// Return to the yield surface at one pressure and rate. excess: trial equivalent stress above the strength, Pa.
-/// The plastic strain satisfies  trial - 3 G dep = strength(D + dep/eps_f): linear in dep, so solved exactly. Where the
-/// strength falls faster than the elastic stress, no such state exists and the point fractures within the step.
+/// Damage after the plastic strain `increment`; where the fracture strain is 0 any yielding fractures.
 template <class T>
-void advance_damage(const JohnsonHolmquist2& law, const JohnsonHolmquist2Strength<T>& y, const T& trial, const T& excess,
-                    T& damage, T& plastic_strain) {
-  const T zero = T(0.0), one = T(1.0);
-  const auto yields = excess > zero;
-  const T softening = y.intact - y.fractured;
-  const T slope = 3.0 * law.shear_modulus * y.fracture_strain - softening;  // times eps_f
-  const T step_damage = select(slope > zero, T(excess / maximum(slope, T(1e-290))), one);
-  const T damaged = minimum(T(damage + step_damage), one);
-  // Fracture strain 0: any yielding fractures. D1 = 0 likewise.
-  const T fractured = select(y.fracture_strain > zero, damaged, one);
-  const T after = y.intact - fractured * softening;
-  const T increment = (trial - minimum(after, trial)) / (3.0 * law.shear_modulus);
-  damage = select(yields, fractured, damage);
-  plastic_strain += select(yields, increment, zero);
+T grown_damage(const JohnsonHolmquist2Strength<T>& y, const T& damage, const T& increment) {
+  const T grown = damage + increment / maximum(y.fracture_strain, T(1e-290));
+  return select(y.fracture_strain > T(0.0), minimum(grown, T(1.0)), T(1.0));
 }
 
 /// Bulking: a share beta of the deviatoric elastic energy that the loss of strength sets free becomes pressure.
@@ -135,8 +122,34 @@ T bulked_pressure(const JohnsonHolmquist2& law, const T& mu, const T& bulking_pr
   return square_root(T(total * total + 2.0 * law.bulking_fraction * law.bulk_modulus * released)) - linear;
 }
 
+/// Plastic flow of one step: radial return to the strength at the old damage, then damage and bulking. The strength lost
+/// to the damage of a step is returned to in the next one; so the law follows its rate equations where they have a
+/// solution, and fractures within a few steps where the strength falls faster than elastic unloading can follow.
+template <class T>
+void flow_plastically(const JohnsonHolmquist2& law, PointState<T>& state, SymmetricTensor<T>& deviator, const T& mu,
+                      const T& rate, const T& trial, const T& old_strength, T& p) {
+  const T zero = T(0.0), one = T(1.0);
+  const auto yields = trial > old_strength;
+  const auto y = strength(law, p, rate, true, true);
+  const T increment = select(yields, T((trial - old_strength) / (3.0 * law.shear_modulus)), zero);
+  const T scale = select(yields, T(old_strength / maximum(trial, T(1e-290))), one);
+  for (int c = 0; c < 6; ++c) deviator[c] *= scale;
+
+  const T damage = select(yields, grown_damage(y, state.damage, increment), state.damage);
+  if (law.bulking_fraction > 0) {
+    const T new_strength = y.intact - damage * (y.intact - y.fractured);
+    const T bulked = bulked_pressure(law, mu, state.bulking_pressure, old_strength, new_strength);
+    const T increase = select(yields && (mu > zero), T(bulked - state.bulking_pressure), zero);
+    state.bulking_pressure += increase;
+    p += increase;
+  }
+  p = maximum(p, T(-law.maximum_tensile_pressure * (one - damage)));
+  state.damage = damage;
+  state.plastic_strain += increment;
+}
+
 /// One step of the law. On entry the stress is the old one, already rotated, and state.relative_volume the new one.
-/// strain: D dt of the step. Returns the flow stress at the end of the step (von Mises measure, Pa).
+/// strain: D dt of the step. Returns the flow stress of the step (von Mises measure, Pa).
 template <class T>
 T advance_stress(const JohnsonHolmquist2& law, PointState<T>& state, const SymmetricTensor<T>& strain, T dt) {
   const T zero = T(0.0), one = T(1.0);
@@ -150,33 +163,15 @@ T advance_stress(const JohnsonHolmquist2& law, PointState<T>& state, const Symme
   for (int c = 0; c < 6; ++c) deviator[c] += 2.0 * law.shear_modulus * stretching[c];
 
   const T mu = one / state.relative_volume - one;
-  const T cut_off = -law.maximum_tensile_pressure * (one - state.damage);
-  T p = maximum(pressure(law, mu, state.bulking_pressure), cut_off);
+  T p = maximum(pressure(law, mu, state.bulking_pressure), T(-law.maximum_tensile_pressure * (one - state.damage)));
 
   // equivalent_stress of a strain is 3/2 of the equivalent strain sqrt(2/3 e:e).
   const T rate = equivalent_stress(stretching) * (2.0 / 3.0) / maximum(dt, T(1e-290));
   const T trial = equivalent_stress(deviator);
-  const bool damaged = any(state.damage > zero);
-  auto y = strength(law, p, rate, damaged, false);
-  T flow = y.intact - state.damage * (y.intact - y.fractured);
-  const T excess = trial - flow;
-  if (any(excess > zero)) {
-    y = strength(law, p, rate, true, true);
-    const T before = flow;
-    const T old_damage = state.damage;
-    advance_damage(law, y, trial, excess, state.damage, state.plastic_strain);
-    flow = y.intact - state.damage * (y.intact - y.fractured);
-    const T scale = select(excess > zero, T(minimum(flow, trial) / maximum(trial, T(1e-290))), one);
-    for (int c = 0; c < 6; ++c) deviator[c] *= scale;
-    if (law.bulking_fraction > 0) {
-      const auto bulks = (excess > zero) && (mu > zero) && (state.damage > old_damage);
-      const T bulked = bulked_pressure(law, mu, state.bulking_pressure, before, flow);
-      const T increase = select(bulks, T(bulked - state.bulking_pressure), zero);
-      state.bulking_pressure += increase;
-      p += increase;
-    }
-    p = maximum(p, T(-law.maximum_tensile_pressure * (one - state.damage)));
-  }
+  const auto y = strength(law, p, rate, any(state.damage > zero), false);
+  const T flow = y.intact - state.damage * (y.intact - y.fractured);
+  if (any(trial > flow)) flow_plastically(law, state, deviator, mu, rate, trial, flow, p);
+
   state.stress = deviator;
   for (int c = 0; c < 3; ++c) state.stress[c] -= p;
   return flow;
