@@ -195,11 +195,11 @@ std::array<double, 3> difference(double b, double d1, double end, int steps, dou
 /// Agreement at many steps, and an error of first order in the step.
 void expect_agreement(double b, double d1, double end, double least_damage) {
   double damage = 0;
-  const auto coarse = difference(b, d1, end, 10000, damage), fine = difference(b, d1, end, 100000, damage);
+  const auto coarse = difference(b, d1, end, 10000, damage), fine = difference(b, d1, end, 200000, damage);
   EXPECT_GE(damage, least_damage);
   for (int c = 0; c < 3; ++c) {
     EXPECT_LT(fine[c], 0.005) << "quantity " << c;
-    EXPECT_LT(fine[c], 0.2 * coarse[c] + 1e-6) << "quantity " << c;
+    EXPECT_LT(fine[c], 0.1 * coarse[c] + 1e-6) << "quantity " << c;
   }
 }
 

@@ -1,0 +1,23 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace polynya::bench {
+
+/// One measured figure.
+struct Figure {
+  std::string name;  ///< "ice.hexahedron_jh2_ns"
+  double value = 0;  ///< in the unit that ends the name
+};
+
+/// Shortest processor time of this thread in `repetitions` calls, s: other load on the machine counts little. A first
+/// call, not counted, warms caches and pages.
+double shortest_time(int repetitions, const std::function<void()>& call);
+
+// One function per file; each runs on one thread.
+std::vector<Figure> machine_triad();
+std::vector<Figure> hexahedron_elastic();
+std::vector<Figure> hexahedron_jh2();
+
+}  // namespace polynya::bench

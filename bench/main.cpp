@@ -1,0 +1,82 @@
+#include <omp.h>
+#include <time.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <limits>
+
+#include "bench/kernels.hpp"
+
+namespace polynya::bench {
+
+namespace {
+double processor_seconds() {
+  timespec time;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+}  // namespace
+
+double shortest_time(int repetitions, const std::function<void()>& call) {
+  call();
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < repetitions; ++k) {
+    const double start = processor_seconds();
+    call();
+    shortest = std::min(shortest, processor_seconds() - start);
+  }
+  return shortest;
+}
+
+namespace {
+
+struct Kernel {
+  const char* name;
+  std::vector<Figure> (*run)();
+};
+
+/// All benchmarks; --only selects by name.
+const Kernel kernels[] = {
+    {"machine.triad", machine_triad},
+    {"ice.hexahedron_elastic", hexahedron_elastic},
+    {"ice.hexahedron_jh2", hexahedron_jh2},
+};
+
+int run(int argc, char** argv) {
+  CLI::App app{"Speed of the kernels on one thread"};
+  bool json = false;
+  std::string only;
+  app.add_flag("--json", json, "print one flat JSON object");
+  app.add_option("--only", only, "run the kernels whose name contains this");
+  CLI11_PARSE(app, argc, argv);
+
+  omp_set_num_threads(1);
+  std::vector<Figure> figures;
+  for (const Kernel& kernel : kernels) {
+    if (std::string(kernel.name).find(only) == std::string::npos) continue;
+    const auto measured = kernel.run();
+    figures.insert(figures.end(), measured.begin(), measured.end());
+  }
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    if (json)
+      std::printf("%s\"%s\": %.6g", k ? ", " : "{", figures[k].name.c_str(), figures[k].value);
+    else
+      std::printf("%-32s %12.4g\n", figures[k].name.c_str(), figures[k].value);
+  }
+  if (json) std::puts(figures.empty() ? "{}" : "}");
+  return 0;
+}
+
+}  // namespace
+}  // namespace polynya::bench
+
+int main(int argc, char** argv) {
+  try {
+    return polynya::bench::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "polynya_bench: %s\n", error.what());
+    return 1;
+  }
+}
