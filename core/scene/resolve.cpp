@@ -180,6 +180,8 @@ Scene resolve(const std::filesystem::path& path, const ResolveOptions& options) 
   } catch (const ImpossibleEffect& error) {
     values.fail("effects." + error.effect, std::string(error.what()) + "; allowed here: auto, off");
   }
+  if (!scene.vehicle && !scene.ice && !scene.fluid)
+    values.fail("effects.fluid", "without the fluid nothing is left of the scene; allowed here: auto, on");
   drop_unused_materials(scene);
   read_participants(values, scene);
   return scene;

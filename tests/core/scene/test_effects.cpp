@@ -49,6 +49,12 @@ TEST(Effects, AFluidCannotBeSwitchedOnWithoutWater) {
             std::string::npos);
 }
 
+TEST(Effects, ATubeCannotLoseItsFluid) {
+  EXPECT_NE(
+      message_of(case_folder("shock_tube"), {.level = {}, .settings = {"effects.fluid=off"}}).find("nothing is left"),
+      std::string::npos);
+}
+
 TEST(Effects, TheSceneAgreesWithTheDecision) {
   const Scene scene = base_scene({"effects.gravity=off", "effects.friction=off", "effects.deformable_vehicle=off",
                                   "effects.non_reflecting_boundaries=off", "effects.symmetry=off"});
