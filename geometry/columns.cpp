@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace polynya::geometry {
 namespace {
@@ -35,12 +34,21 @@ class ColumnWalk {
     chunk_.shade.assign(bodies_.size(), {});
     std::fill_n(chunk_.row_of_k.begin(), highest_ + 1, -1);
     for (std::int32_t k = highest_; k >= 0; --k) {
-      if (k < top_) cell(k);
-      pass(k);
-      if (k <= lowest_ && shade_is_negligible()) break;
+      if (chunk_.occupied[static_cast<std::size_t>(k)]) {
+        if (k < top_) cells(k, 1);
+        take_into_shade(k);
+        z_faces(k, 1);
+        continue;
+      }
+      const std::int32_t high = k;
+      while (k > 0 && !chunk_.occupied[static_cast<std::size_t>(k) - 1]) --k;
+      if (shade_is_negligible()) continue;
+      cells(k, high - k + 1);
+      z_faces(k, high - k + 1);
     }
     note_rows_of_records();
     std::fill_n(chunk_.sums.begin(), static_cast<std::size_t>(highest_ + 1) * bodies_.size(), CellSum{});
+    std::fill_n(chunk_.occupied.begin(), highest_ + 1, char{0});
   }
 
  private:
@@ -49,7 +57,6 @@ class ColumnWalk {
   }
 
   bool gather() {
-    lowest_ = std::numeric_limits<std::int32_t>::max();
     highest_ = -1;
     for (std::size_t b = 0; b < bodies_.size(); ++b)
       for (std::int32_t r = records_[b].start[column_]; r < records_[b].start[column_ + 1]; ++r)
@@ -58,7 +65,7 @@ class ColumnWalk {
   }
 
   void add(const PieceRecord& piece, std::size_t b) {
-    lowest_ = std::min(lowest_, piece.k);
+    chunk_.occupied[static_cast<std::size_t>(piece.k)] = 1;
     highest_ = std::max(highest_, piece.k);
     CellSum& s = sum(piece.k, b);
     s.height_moment += piece.height_moment;
@@ -75,21 +82,24 @@ class ColumnWalk {
     for (std::size_t d = 0; d < 3; ++d) s.area[d] += piece.area[d];
   }
 
-  /// Volume, x-face and y-face of cell k: what lies inside it and under the shade of what lies above.
-  void cell(std::int32_t k) {
-    const double dz = z_[static_cast<std::size_t>(k) + 1] - z_[static_cast<std::size_t>(k)];
+  double height(std::int32_t k) const { return z_[static_cast<std::size_t>(k) + 1] - z_[static_cast<std::size_t>(k)]; }
+
+  /// Volumes, x-faces and y-faces of `count` cells from k upward: what lies inside them and under the shade of what
+  /// lies above. There is only one when there is surface inside.
+  void cells(std::int32_t k, std::int32_t count) {
+    const double dz = height(k);
     if (dy_ > 0)
-      face(0, k, dy_ * dz, [&](std::size_t b) { return sum(k, b).x_moment + dz * chunk_.shade[b].x_extent; });
+      faces(0, k, count, dy_, [&](std::size_t b) { return sum(k, b).x_moment / dz + chunk_.shade[b].x_extent; });
     if (dx_ > 0)
-      face(1, k, dx_ * dz, [&](std::size_t b) { return sum(k, b).y_moment + dz * chunk_.shade[b].y_extent; });
+      faces(1, k, count, dx_, [&](std::size_t b) { return sum(k, b).y_moment / dz + chunk_.shade[b].y_extent; });
     if (!(dx_ > 0 && dy_ > 0)) return;
-    const double volume = dx_ * dy_ * dz, least_wall = negligible_wall * (dx_ * dy_ + dy_ * dz + dz * dx_);
+    const double least_wall = negligible_wall * (dx_ * dy_ + dy_ * dz + dz * dx_);
     bool present = false;
     double total = 0;
     const std::size_t first = chunk_.cells.values.size();
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const CellSum& s = sum(k, b);
-      const double solid = volume * snapped((s.height_moment + dz * chunk_.shade[b].area) / volume);
+      const double solid = snapped((s.height_moment / dz + chunk_.shade[b].area) / (dx_ * dy_));
       const double per_wall = s.wall > 0 ? 1.0 / s.wall : 0.0;
       present = present || solid != 0 || s.wall > least_wall;
       total += solid;
@@ -99,38 +109,44 @@ class ColumnWalk {
     }
     if (!present) return chunk_.cells.values.resize(first);
     chunk_.row_of_k[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(chunk_.cells.size());
-    chunk_.cells.place.push_back({i_, j_, k});
-    chunk_.overlapping_cells += total > volume * (1.0 + 1e-9);
+    chunk_.cells.place.push_back({i_, j_, k, count});
+    if (total > 1.0 + 1e-9) chunk_.overlapping_cells += count;
   }
 
-  /// Takes the surface in slab k into the shade; then the shade is what crosses the z-plane k.
-  void pass(std::int32_t k) {
+  /// After this the shade is what crosses the z-plane k.
+  void take_into_shade(std::int32_t k) {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const CellSum& s = sum(k, b);
       chunk_.shade[b].area += s.area[2];
       chunk_.shade[b].x_extent += s.x_extent;
       chunk_.shade[b].y_extent += s.y_extent;
     }
-    if (dx_ > 0 && dy_ > 0) face(2, k, dx_ * dy_, [&](std::size_t b) { return chunk_.shade[b].area; });
   }
 
-  template <class SolidArea>
-  void face(std::size_t axis, std::int32_t k, double area, SolidArea&& solid_area) {
+  void z_faces(std::int32_t k, std::int32_t count) {
+    if (dx_ > 0 && dy_ > 0) faces(2, k, count, dx_ * dy_, [&](std::size_t b) { return chunk_.shade[b].area; });
+  }
+
+  /// Solid parts of `count` faces from k upward; `solid` and `whole` are areas, for x and y per height.
+  template <class Solid>
+  void faces(std::size_t axis, std::int32_t k, std::int32_t count, double whole, Solid&& solid) {
     Rows& rows = chunk_.faces[axis];
     const std::size_t first = rows.values.size();
     bool present = false;
     double total = 0;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      const double fraction = snapped(solid_area(b) / area);
+      const double fraction = snapped(solid(b) / whole);
       present = present || fraction != 0;
       total += fraction;
       rows.values.push_back(fraction);
     }
     if (!present) return rows.values.resize(first);
-    rows.place.push_back({i_, j_, k});
+    rows.place.push_back({i_, j_, k, count});
     const double excess = total - std::clamp(total, 0.0, 1.0);
-    if (std::abs(excess) > negligible)
-      chunk_.excesses.push_back({static_cast<std::int32_t>(axis), i_, j_, k, excess * area});
+    if (std::abs(excess) <= negligible) return;
+    for (std::int32_t level = k; level < k + count; ++level)
+      chunk_.excesses.push_back(
+          {static_cast<std::int32_t>(axis), i_, j_, level, excess * whole * (axis < 2 ? height(level) : 1.0)});
   }
 
   bool shade_is_negligible() const {
@@ -156,19 +172,19 @@ class ColumnWalk {
   std::size_t column_;
   ColumnChunk& chunk_;
   const std::vector<double>& z_;
-  std::int32_t i_ = 0, j_ = 0, top_ = 0, lowest_ = 0, highest_ = -1;
+  std::int32_t i_ = 0, j_ = 0, top_ = 0, highest_ = -1;
   double dx_ = 0, dy_ = 0;
 };
 
 }  // namespace
 
-void Rows::sort_by_level(std::size_t levels, std::vector<std::int32_t>& start) {
-  start.assign(levels + 1, 0);
-  for (const Place& at : place) ++start[static_cast<std::size_t>(at.k) + 1];
-  for (std::size_t k = 1; k <= levels; ++k) start[k] += start[k - 1];
-  order.resize(place.size());
-  for (std::size_t r = 0; r < place.size(); ++r)
-    order[static_cast<std::size_t>(start[static_cast<std::size_t>(place[r].k)]++)] = static_cast<std::int32_t>(r);
+void Rows::count_levels(std::size_t levels) {
+  next.assign(levels + 1, 0);
+  for (const Place& at : place) {  // the ends of the runs first, then their sum
+    ++next[static_cast<std::size_t>(at.k)];
+    --next[static_cast<std::size_t>(at.k + at.count)];
+  }
+  for (std::size_t k = 1; k <= levels; ++k) next[k] += next[k - 1];
 }
 
 void ColumnChunk::clear() {
@@ -197,10 +213,11 @@ void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies, std
   chunk.clear();
   const auto slabs = static_cast<std::size_t>(grid.cells(2)) + 1;
   chunk.row_of_k.resize(slabs);
+  chunk.occupied.resize(slabs, 0);
   if (chunk.sums.size() != slabs * bodies.size()) chunk.sums.assign(slabs * bodies.size(), CellSum{});
   for (std::size_t column = begin; column < end; ++column) ColumnWalk(grid, bodies, records, column, chunk).run();
-  chunk.cells.sort_by_level(slabs, chunk.start);
-  for (Rows& rows : chunk.faces) rows.sort_by_level(slabs, chunk.start);
+  chunk.cells.count_levels(slabs);
+  for (Rows& rows : chunk.faces) rows.count_levels(slabs);
 }
 
 }  // namespace polynya::geometry

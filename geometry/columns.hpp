@@ -10,27 +10,27 @@
 /// From the records of clipped triangles to cells and faces, one column of cells after the other. Internal to the room.
 namespace polynya::geometry {
 
-/// Where a cell or face lies.
+/// Where cells or faces lie: `count` of them from k upward, all with the same values.
 struct Place {
-  std::int32_t i, j, k;
+  std::int32_t i, j, k, count;
 };
 
 /// Rows of output of a chunk of columns: where they belong and, per body, their values.
 struct Rows {
   std::vector<Place> place;
-  std::vector<double> values;          ///< [rows][stride]
-  std::vector<std::int64_t> position;  ///< [rows], place in the sorted output
-  std::vector<std::int32_t> order;     ///< rows by position: written in this order, the output is filled in streams
+  std::vector<double> values;      ///< [rows][stride]
+  std::vector<std::int64_t> next;  ///< per level k: how many; then where the chunk's next one goes in the sorted output
+  std::vector<std::int64_t> position;  ///< [rows], where the first of the row went
 
   std::size_t size() const { return place.size(); }
   void clear() {
     place.clear();
     values.clear();
   }
-  void sort_by_level(std::size_t levels, std::vector<std::int32_t>& start);
+  void count_levels(std::size_t levels);
 };
 
-/// Values of a cell per body: volume, outward area vector, velocity.
+/// Values of a cell per body: fraction of its volume, outward area vector, velocity.
 inline constexpr std::size_t cell_stride = 7;
 
 /// Solid area of a face (m^2, signed) by which the sum over bodies leaves [0, area of the face].
@@ -70,7 +70,7 @@ struct ColumnChunk {
   std::vector<CellSum> sums;           ///< scratch [cells along z + 1][bodies]
   std::vector<ColumnShade> shade;      ///< scratch [bodies]
   std::vector<std::int32_t> row_of_k;  ///< scratch [cells along z + 1]
-  std::vector<std::int32_t> start;     ///< scratch of sorting
+  std::vector<char> occupied;          ///< scratch [cells along z + 1], there is surface in the slab
 
   void clear();
 };

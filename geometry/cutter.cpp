@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "core/compute/parallel.hpp"
 #include "geometry/columns.hpp"
@@ -13,55 +13,57 @@ namespace {
 constexpr std::size_t triangle_chunk = 512;
 constexpr std::size_t column_chunk = 64;
 
-/// Sorts the rows of all chunks by k; within one k they keep the order of the columns, so the result is sorted by
-/// index.
-std::size_t sort_rows(std::vector<ColumnChunk>& chunks, Rows& (*rows_of)(ColumnChunk&),
-                      std::vector<std::int64_t>& next) {
-  std::ranges::fill(next, 0);
-  for (ColumnChunk& chunk : chunks)
-    for (const Place& at : rows_of(chunk).place) ++next[static_cast<std::size_t>(at.k) + 1];
-  for (std::size_t k = 1; k < next.size(); ++k) next[k] += next[k - 1];
-  for (ColumnChunk& chunk : chunks) {
-    Rows& rows = rows_of(chunk);
-    rows.position.resize(rows.size());
-    for (std::size_t r = 0; r < rows.size(); ++r) rows.position[r] = next[static_cast<std::size_t>(rows.place[r].k)]++;
-  }
-  return static_cast<std::size_t>(next.back());
+/// Gives every chunk its places, sorted by k; within one k in the order of the columns, so the result is sorted by
+/// index. Returns the number of places.
+std::size_t assign_places(std::vector<ColumnChunk>& chunks, std::size_t levels, Rows& (*rows_of)(ColumnChunk&)) {
+  std::int64_t place = 0;
+  for (std::size_t k = 0; k < levels; ++k)
+    for (ColumnChunk& chunk : chunks) {
+      std::int64_t& next = rows_of(chunk).next[k];
+      place += std::exchange(next, place);
+    }
+  return static_cast<std::size_t>(place);
 }
 
-void scatter_cells(const GridLines& grid, const Rows& rows, CutCells& out) {
+void scatter_cells(const GridLines& grid, Rows& rows, CutCells& out) {
   const std::size_t bodies = out.bodies;
-  for (std::int32_t row : rows.order) {
-    const auto r = static_cast<std::size_t>(row), at = static_cast<std::size_t>(rows.position[r]);
+  rows.position.resize(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
     const Place& place = rows.place[r];
-    double total = 0;
-    for (std::size_t b = 0; b < bodies; ++b) {
-      const double* value = rows.values.data() + (r * bodies + b) * cell_stride;
-      total += value[0];
-      out.body_volume[at * bodies + b] = value[0];
-      for (std::size_t d = 0; d < 3; ++d) {
-        out.wall_area[(at * bodies + b) * 3 + d] = -value[1 + d];
-        out.wall_velocity[(at * bodies + b) * 3 + d] = value[4 + d];
+    const double* values = rows.values.data() + r * bodies * cell_stride;
+    rows.position[r] = rows.next[static_cast<std::size_t>(place.k)];
+    for (std::int32_t k = place.k; k < place.k + place.count; ++k) {
+      const auto at = static_cast<std::size_t>(rows.next[static_cast<std::size_t>(k)]++);
+      const double volume = grid.width(0, place.i) * grid.width(1, place.j) * grid.width(2, k);
+      double total = 0;
+      for (std::size_t b = 0; b < bodies; ++b) {
+        const double* value = values + b * cell_stride;
+        total += value[0];
+        out.body_volume[at * bodies + b] = value[0] * volume;
+        for (std::size_t d = 0; d < 3; ++d) {
+          out.wall_area[(at * bodies + b) * 3 + d] = -value[1 + d];
+          out.wall_velocity[(at * bodies + b) * 3 + d] = value[4 + d];
+        }
       }
+      out.cell[at] = grid.cell_index(place.i, place.j, k);
+      out.solid_volume[at] = std::clamp(total, 0.0, 1.0) * volume;
+      out.debris_volume[at] = 0;
     }
-    const double volume = grid.width(0, place.i) * grid.width(1, place.j) * grid.width(2, place.k);
-    out.cell[at] = grid.cell_index(place.i, place.j, place.k);
-    out.solid_volume[at] = std::clamp(total, 0.0, volume);
-    out.debris_volume[at] = 0;
   }
 }
 
-void scatter_faces(const Rows& rows, std::int64_t count_x, std::int64_t count_y, std::size_t bodies, CutFaces& out) {
-  for (std::int32_t row : rows.order) {
-    const auto r = static_cast<std::size_t>(row), at = static_cast<std::size_t>(rows.position[r]);
+void scatter_faces(Rows& rows, std::int64_t count_x, std::int64_t count_y, std::size_t bodies, CutFaces& out) {
+  for (std::size_t r = 0; r < rows.size(); ++r) {
     const Place& place = rows.place[r];
+    const double* values = rows.values.data() + r * bodies;
     double total = 0;
-    for (std::size_t b = 0; b < bodies; ++b) {
-      out.body_solid[at * bodies + b] = rows.values[r * bodies + b];
-      total += rows.values[r * bodies + b];
+    for (std::size_t b = 0; b < bodies; ++b) total += values[b];
+    for (std::int32_t k = place.k; k < place.k + place.count; ++k) {
+      const auto at = static_cast<std::size_t>(rows.next[static_cast<std::size_t>(k)]++);
+      for (std::size_t b = 0; b < bodies; ++b) out.body_solid[at * bodies + b] = values[b];
+      out.face[at] = place.i + count_x * (place.j + count_y * k);
+      out.solid[at] = std::clamp(total, 0.0, 1.0);
     }
-    out.face[at] = place.i + count_x * (place.j + count_y * place.k);
-    out.solid[at] = std::clamp(total, 0.0, 1.0);
   }
 }
 
@@ -150,15 +152,12 @@ void Cutter::Workspace::sum(std::span<const BodySurface> bodies) {
 }
 
 void Cutter::Workspace::collect(CutCells& out) {
-  next.resize(static_cast<std::size_t>(grid.cells(2)) + 2);
-  const std::size_t entries = sort_rows(
-      chunks, [](ColumnChunk& c) -> Rows& { return c.cells; }, next);
-  const std::array<std::size_t, 3> faces{sort_rows(
-                                             chunks, [](ColumnChunk& c) -> Rows& { return c.faces[0]; }, next),
-                                         sort_rows(
-                                             chunks, [](ColumnChunk& c) -> Rows& { return c.faces[1]; }, next),
-                                         sort_rows(
-                                             chunks, [](ColumnChunk& c) -> Rows& { return c.faces[2]; }, next)};
+  const auto levels = static_cast<std::size_t>(grid.cells(2)) + 1;
+  const std::size_t entries = assign_places(chunks, levels, [](ColumnChunk& c) -> Rows& { return c.cells; });
+  const std::array<std::size_t, 3> faces{
+      assign_places(chunks, levels, [](ColumnChunk& c) -> Rows& { return c.faces[0]; }),
+      assign_places(chunks, levels, [](ColumnChunk& c) -> Rows& { return c.faces[1]; }),
+      assign_places(chunks, levels, [](ColumnChunk& c) -> Rows& { return c.faces[2]; })};
   piece_start.assign(1, 0);
   excesses.clear();
   for (const ColumnChunk& chunk : chunks) {

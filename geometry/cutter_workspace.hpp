@@ -16,7 +16,6 @@ struct Cutter::Workspace {
   std::vector<ColumnChunk> chunks;                            ///< [chunks of columns]
   std::vector<FaceExcess> excesses;
   std::vector<std::size_t> piece_start;  ///< [chunks of columns + 1]
-  std::vector<std::int64_t> next;        ///< scratch of sorting, per k
   DebrisDeposit debris;
 
   /// Columns of cells, and one more along x and y for the last planes.
