@@ -41,7 +41,7 @@ def jobs(run: Path, scene: dict, summary: dict, folder: Path) -> Iterator[tuple[
         series = series.ordered("vehicle_speed")
         yield "motion", lambda: draw_curves.draw_motion(scene, summary, series, folder / "motion.png")
         yield "energies", lambda: draw_curves.draw_energies(scene, summary, series, folder / "energies.png")
-    elif series:
+    if series and len(names) == 1:
         yield "series", lambda: draw_series.draw_columns(scene, series.ordered(), folder / "series.png")
     tube = read_series(run / "series" / "tube.csv")
     if tube:

@@ -21,6 +21,13 @@ RESERVOIRS = (("vehicle_kinetic", "vehicle, kinetic", style.BLUE, "-"),
               ("external_work", "work from outside", style.QUIET, "--"),
               ("numerical_work", "numerical work", style.QUIET, ":"))
 
+ERRORS = (("energy_error", "energy", style.VERMILION), ("momentum_error", "momentum", style.BLUE))
+
+
+def changes(series: Series, name: str) -> bool:
+    """Is there a curve to draw? A column of a part that the scene does not have stays at zero."""
+    return series.has(name) and bool(numpy.nan_to_num(series[name]).any())
+
 
 def stage_limits(summary: dict, end: float) -> list[tuple[str, float, float]]:
     """Name, begin and end (s) of the stages: until first contact, until the shoulder is clear, and after."""
@@ -47,7 +54,7 @@ def draw_motion(scene: dict, summary: dict, series: Series, path: Path) -> Path 
     """Speed, deceleration, forces and head stress one above the other."""
     time = series["time"]
     panels = [panel for panel in (speed_panel, deceleration_panel, force_panel, stress_panel)
-              if any(series.has(name) for name in NEEDED[panel])]
+              if any(changes(series, name) for name in NEEDED[panel])]
     if not panels or len(time) < 2:
         return None
     height = 0.9 + 1.75 * len(panels)
@@ -102,7 +109,8 @@ def deceleration_panel(ax: pyplot.Axes, scene: dict, summary: dict, series: Seri
 def force_panel(ax: pyplot.Axes, scene: dict, _summary: dict, series: Series) -> None:
     """Contact is a rattle of short blows: the filtered force over the raw one, as for the deceleration."""
     shown = [(name, label, color) for name, label, color in (
-        ("contact_force", "ice", style.ORANGE), ("fluid_force", "water and air", style.GREEN)) if series.has(name)]
+        ("contact_force", "ice", style.ORANGE), ("fluid_force", "water and air", style.GREEN))
+        if changes(series, name)]
     time, frequency = series["time"], scene["run"]["filter_frequency"]
     smooth = {name: definitions.filtered(time, numpy.nan_to_num(series[name]), frequency) for name, _, _ in shown}
     factor, prefix = style.scale(max(abs(values).max() for values in smooth.values()))
@@ -112,14 +120,15 @@ def force_panel(ax: pyplot.Axes, scene: dict, _summary: dict, series: Series) ->
     raw = numpy.array([series[name] for name in smooth])
     limit_to(ax, numpy.array(list(smooth.values())) * factor, raw * factor)
     ax.set_ylabel(f"force on vehicle  [{prefix}N]")
-    ax.legend(loc="upper right", ncols=2)
+    ax.legend(loc="best", ncols=2)
 
 
 def limit_to(ax: pyplot.Axes, smooth: numpy.ndarray, raw: numpy.ndarray) -> None:
     """The raw curve may spike far beyond what matters: the filtered one sets the range."""
     low, high = smooth.min(), smooth.max()
     room = 0.35 * max(high - low, 1e-12)
-    ax.set_ylim(max(low - room, numpy.nanmin(raw) - 0.1 * room), min(high + room, numpy.nanmax(raw) + 0.3 * room))
+    ax.set_ylim(max(low - room, min(low, numpy.nanmin(raw)) - 0.1 * room),
+                min(high + room, max(high, numpy.nanmax(raw)) + 0.3 * room))
 
 
 def stress_panel(ax: pyplot.Axes, _scene: dict, _summary: dict, series: Series) -> None:
@@ -136,25 +145,33 @@ NEEDED = {speed_panel: ("vehicle_speed",), deceleration_panel: ("vehicle_speed",
 
 def draw_energies(scene: dict, summary: dict, series: Series, path: Path) -> Path | None:
     """Every reservoir relative to the start, and the errors of the ledger below."""
-    shown = [row for row in RESERVOIRS if series.has(row[0])]
+    shown = [row for row in RESERVOIRS if changes(series, row[0])]
     if len(shown) < 2 or len(series) < 2:
         return None
     time = series["time"] * MILLI
-    figure, axes = pyplot.subplots(2, 1, figsize=(7.4, 5.4), sharex=True, gridspec_kw={"height_ratios": [2.6, 1]})
-    changes = {name: series[name] - series[name][0] for name, *_ in shown}
-    factor, prefix = style.scale(max(numpy.nanmax(abs(change)) for change in changes.values()))
+    errors = [row for row in ERRORS if series.has(row[0])]
+    shape = {"height_ratios": [2.6, 1]} if errors else {}
+    figure, axes = pyplot.subplots(2 if errors else 1, 1, figsize=(7.4, 5.4), sharex=True, squeeze=False,
+                                   gridspec_kw=shape)
+    axes = list(axes[:, 0])
+    gained = {name: series[name] - series[name][0] for name, *_ in shown}
+    factor, prefix = style.scale(max(numpy.nanmax(abs(change)) for change in gained.values()))
     axes[0].axhline(0, color=style.QUIET, lw=0.7)
     for name, label, color, line in shown:
-        axes[0].plot(time, changes[name] * factor, line, color=color, label=label)
+        axes[0].plot(time, gained[name] * factor, line, color=color, label=label)
     axes[0].set_ylabel(f"energy since the start  [{prefix}J]")
     axes[0].legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    for name, label, color in (("energy_error", "energy", style.VERMILION), ("momentum_error", "momentum", style.BLUE)):
-        if series.has(name):
-            axes[1].plot(time, numpy.maximum(abs(series[name]), 1e-16), color=color, lw=1.2, label=label)
-    axes[1].set_yscale("log")
-    axes[1].set_ylim(bottom=max(axes[1].get_ylim()[0], 1e-13))
-    axes[1].set_ylabel("relative error")
-    axes[1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    finish(figure, list(axes), scene, summary, series["time"][-1])
+    if errors:
+        error_panel(axes[1], series, errors)
+    finish(figure, axes, scene, summary, series["time"][-1])
     figure.subplots_adjust(right=0.78)
     return save(figure, path)
+
+
+def error_panel(ax: pyplot.Axes, series: Series, errors: list[tuple[str, str, str]]) -> None:
+    for name, label, color in errors:
+        ax.plot(series["time"] * MILLI, numpy.maximum(abs(series[name]), 1e-16), color=color, lw=1.2, label=label)
+    ax.set_yscale("log")
+    ax.set_ylim(bottom=max(ax.get_ylim()[0], 1e-13))
+    ax.set_ylabel("relative error")
+    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))

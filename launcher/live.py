@@ -45,7 +45,7 @@ class LiveLine:
             return
         self.spoken = now
         row = self.tail.latest()
-        share = finished_share(self.scene, row)
+        share = finished_share(self.scene, row, self.tail.first)
         words = self.words(row, share)
         if self.plain:
             print("polynya: " + "   ".join(words), file=sys.stderr, flush=True)
@@ -57,7 +57,7 @@ class LiveLine:
         passed = time.monotonic() - self.started
         if not row:
             return [f"starting, {units.duration(passed)}"]
-        words = [f"t {units.readable(row.get('time', 0.0), 's')}"]
+        words = [f"t {1e3 * row.get('time', 0.0):.3f} ms"]
         if "window" in row:
             words.append(f"window {row['window']:.0f}")
         speed = row.get("vehicle_speed", row.get("speed_z"))
@@ -76,21 +76,21 @@ class LiveLine:
         return grid
 
 
-def finished_share(scene: dict, row: dict[str, float]) -> float | None:
+def finished_share(scene: dict, row: dict[str, float], first: dict[str, float]) -> float | None:
     """How much of the simulated time is done: of the latest end, or of the way to the position that ends the run."""
     now, last = row.get("time"), (scene.get("run") or {}).get("end_time")
     if not now or not last:
         return None
-    end = min(last, now + time_to_position(scene, row))
-    return min(1.0, now / end)
+    return min(1.0, now / min(last, now + time_to_position(scene, row, first)))
 
 
-def time_to_position(scene: dict, row: dict[str, float]) -> float:
+def time_to_position(scene: dict, row: dict[str, float], first: dict[str, float]) -> float:
     """Time until the vehicle, at its present speed, has passed or left the ice; infinite if that ends nothing."""
     vehicle, ice, end = scene.get("vehicle"), scene.get("ice"), (scene.get("run") or {}).get("end")
     speed = row.get("vehicle_speed", 0.0)
-    if not vehicle or not ice or end not in ("ice_passed", "exited") or speed <= 0:
+    if not vehicle or not ice or end not in ("ice_passed", "exited") or speed <= 0 or "vehicle_position" not in first:
         return math.inf
     behind = vehicle["length"] if end == "exited" else vehicle["head_length"] + vehicle["diameter"]
     way = ice["lower_face"] + ice["thickness"] + behind - vehicle["nose_position"]
-    return max(0.0, way - vehicle["speed"] * row["time"]) / speed
+    done = row["vehicle_position"] - first["vehicle_position"] + vehicle["speed"] * first["time"]
+    return max(0.0, way - done) / speed

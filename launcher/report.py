@@ -100,13 +100,16 @@ def print_summary(summary: dict, pictures: list[Path]) -> None:
     level = f"  [dim]{summary['level']}[/]" if summary.get("level") else ""
     console.print()
     console.print(f"[bold]{heading}[/]{level}")
+    if summary["state"] == "failed":
+        console.print("[bold red]failed[/]; what was found until then:")
     if summary.get("end_reason"):
-        console.print(f"[dim]ended at {units.readable(summary.get('end_time'), 's')}: {summary['end_reason']}[/]")
+        console.print(f"[dim]ended at {units.readable(summary.get('end_time'), 's')}: {summary['end_reason'].replace('_', ' ')}[/]")
     console.print(Padding(two_columns(summary), (1, 0)))
     others = other_findings(summary)
     if others.row_count:
         console.print(others)
-    console.print(process_table(summary["processes"]))
+    if summary["processes"]:
+        console.print(process_table(summary["processes"]))
     console.print(f"[dim]results[/]   {summary['run']}", soft_wrap=True)
     for picture in pictures:
         console.print(f"[dim]picture[/]   {picture}", soft_wrap=True)

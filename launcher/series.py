@@ -47,9 +47,10 @@ class Series:
 
 
 def parse_header(line: str) -> tuple[list[str], list[str]]:
-    """Names and units of a header line; a column without [unit] has unit ''."""
+    """Names and units of a header line; without one, or with [-], the unit is ''."""
     matches = [HEADER.match(part) for part in line.rstrip("\n").split(",")]
-    return [match["name"] for match in matches], [match["unit"] or "" for match in matches]
+    units = [match["unit"] or "" for match in matches]
+    return [match["name"] for match in matches], ["" if unit == "-" else unit for unit in units]
 
 
 def parse_row(line: str, width: int) -> list[float] | None:
@@ -89,6 +90,7 @@ class Tail:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.names: list[str] = []
+        self.first: dict[str, float] = {}  # the first row, once it has been seen
 
     def latest(self) -> dict[str, float]:
         """Values by column name; empty as long as there is no complete row."""
@@ -99,13 +101,19 @@ class Tail:
                     if not header.endswith(b"\n"):
                         return {}
                     self.names, _ = parse_header(header.decode("utf-8", "replace"))
+                if not self.first:
+                    file.seek(0)
+                    file.readline()
+                    line = file.readline()
+                    self.first = self.row(line) if line.endswith(b"\n") else {}
                 size = file.seek(0, 2)
                 file.seek(max(0, size - self.CHUNK))
                 lines = file.read().split(b"\n")[:-1]
         except OSError:
             return {}
-        for line in reversed(lines):
-            row = parse_row(line.decode("utf-8", "replace"), len(self.names))
-            if row and row[0] == row[0]:  # the header itself parses to nan
-                return dict(zip(self.names, row))
-        return {}
+        return next((row for row in map(self.row, reversed(lines)) if row), {})
+
+    def row(self, line: bytes) -> dict[str, float]:
+        """Values of a line; empty if it is cut off, or the header, which reads as nan."""
+        values = parse_row(line.decode("utf-8", "replace"), len(self.names))
+        return dict(zip(self.names, values)) if values and values[0] == values[0] else {}

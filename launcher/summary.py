@@ -28,8 +28,7 @@ MEASURED = {
     "steps": ("window", "last"),
 }
 NEED_ICE = ("broken_ice_mass", "converted_elements", "particles")
-VEHICLE_ALONE = {"speed_z": "vehicle_speed", "centre_of_mass_z": "vehicle_position", "kinetic": "vehicle_kinetic",
-                 "internal": "vehicle_internal"}
+VEHICLE_ALONE = {"speed_z": "vehicle_speed", "centre_of_mass_z": "vehicle_position"}
 COUNTS = ("converted_elements", "particles", "cells", "elements", "steps")
 OF_ALL = ("cells", "elements")  # added up over the processes
 PASSAGE = tuple(definitions.Passage.__dataclass_fields__)

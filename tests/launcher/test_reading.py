@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy
 
-from launcher import fields, summary, units
+from launcher import fields, live, summary, units
 from launcher.series import Tail, read_series
 from launcher.supervise import Outcome
 from tests.launcher import synthetic_run as invented
@@ -22,7 +22,7 @@ class Folder(unittest.TestCase):
 class Series(Folder):
     def test_columns_are_found_by_name_and_know_their_units(self):
         path = self.folder / "a.csv"
-        path.write_text("time [s],vehicle_speed [m/s],cells\n0,40,7\n1e-6,39.9,8\n")
+        path.write_text("time [s],vehicle_speed [m/s],cells [-]\n0,40,7\n1e-6,39.9,8\n")
         series = read_series(path)
         self.assertEqual(series.units, {"time": "s", "vehicle_speed": "m/s", "cells": ""})
         numpy.testing.assert_array_equal(series["vehicle_speed"], [40, 39.9])
@@ -47,6 +47,22 @@ class Series(Folder):
         path = self.folder / "a.csv"
         path.write_text("time [s],x\n" + "".join(f"{i},{2 * i}\n" for i in range(20000)))
         self.assertEqual(Tail(path).latest(), {"time": 19999.0, "x": 39998.0})
+
+
+class TimeLeft(unittest.TestCase):
+    def share(self, time: float, **run) -> float:
+        scene = {**invented.SCENE, "run": {**invented.SCENE["run"], **run}}
+        rows = [{"time": t, "vehicle_speed": 40.0, "vehicle_position": -0.05 + 40.0 * t} for t in (1e-6, time)]
+        return live.finished_share(scene, rows[1], rows[0])
+
+    def test_follows_the_position_that_ends_the_run(self):
+        """Steady flight from 4 mm below 10 mm of ice until the 10 mm head and one diameter are above it: 34 mm."""
+        self.assertAlmostEqual(self.share(2.125e-4, end_time=9.0), 0.25)
+        self.assertAlmostEqual(self.share(2.85e-4, end_time=9.0, end="exited"), 0.1)
+
+    def test_follows_the_latest_end_when_that_comes_first(self):
+        self.assertAlmostEqual(self.share(1e-4, end_time=4e-4), 0.25)
+        self.assertAlmostEqual(self.share(1e-4, end_time=8e-4, end="time"), 0.125)
 
 
 class Summary(Folder):
