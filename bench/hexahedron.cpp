@@ -18,7 +18,8 @@ HexMesh cube(int n, double side) {
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i)
         for (int z = k; z <= k + 1; ++z)
-          mesh.elements.insert(mesh.elements.end(), {node(i, j, z), node(i + 1, j, z), node(i + 1, j + 1, z), node(i, j + 1, z)});
+          mesh.elements.insert(mesh.elements.end(),
+                               {node(i, j, z), node(i + 1, j, z), node(i + 1, j + 1, z), node(i, j + 1, z)});
   return mesh;
 }
 
@@ -28,7 +29,8 @@ double cycle(const Law& law, double speed) {
   auto solid = make_solid("block", cube(n, 0.064), law);
   for (std::size_t k = 0; k < solid.node_count(); ++k)
     for (std::size_t i = 0; i < 3; ++i)
-      solid.velocities[3 * k + i] = speed * std::sin(200 * solid.mesh.nodes[3 * k + (i + 1) % 3] + static_cast<double>(i));
+      solid.velocities[3 * k + i] =
+          speed * std::sin(200 * solid.mesh.nodes[3 * k + (i + 1) % 3] + static_cast<double>(i));
   const std::vector<double> none(3 * solid.node_count(), 0.0);
   const double dt = 0.5 * stable_step(solid);
   const int cycles = 4;
@@ -50,12 +52,19 @@ std::vector<Figure> hexahedron_elastic() {
 
 /// Fresh-water ice; the shear of the swing fractures a part of it, so that all branches of the law are taken.
 std::vector<Figure> hexahedron_jh2() {
-  const auto ice = johnson_holmquist_2_from_card("ice", {
-      {"density", 900}, {"shear_modulus", 4.4444e9}, {"bulk_modulus", 8.1254e9}, {"hugoniot_elastic_limit", 5.2e9},
-      {"pressure_at_hugoniot_elastic_limit", 3.4381e9}, {"intact_strength_constant", 1.4},
-      {"intact_strength_exponent", 0.8918}, {"strain_rate_constant", 0.05}, {"fractured_strength_constant", 0.09},
-      {"fractured_strength_exponent", 1.2}, {"maximum_tensile_pressure", 1e6}, {"damage_constant", 0.05},
-      {"damage_exponent", 0.5}});
+  const auto ice = johnson_holmquist_2_from_card("ice", {{"density", 900},
+                                                         {"shear_modulus", 4.4444e9},
+                                                         {"bulk_modulus", 8.1254e9},
+                                                         {"hugoniot_elastic_limit", 5.2e9},
+                                                         {"pressure_at_hugoniot_elastic_limit", 3.4381e9},
+                                                         {"intact_strength_constant", 1.4},
+                                                         {"intact_strength_exponent", 0.8918},
+                                                         {"strain_rate_constant", 0.05},
+                                                         {"fractured_strength_constant", 0.09},
+                                                         {"fractured_strength_exponent", 1.2},
+                                                         {"maximum_tensile_pressure", 1e6},
+                                                         {"damage_constant", 0.05},
+                                                         {"damage_exponent", 0.5}});
   return {{"ice.hexahedron_jh2_ns", cycle(ice, 5)}};
 }
 

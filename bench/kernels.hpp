@@ -19,5 +19,6 @@ double shortest_time(int repetitions, const std::function<void()>& call);
 std::vector<Figure> machine_triad();
 std::vector<Figure> hexahedron_elastic();
 std::vector<Figure> hexahedron_jh2();
+std::vector<Figure> clip();
 
 }  // namespace polynya::bench

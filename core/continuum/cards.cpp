@@ -63,8 +63,8 @@ JohnsonHolmquist2 johnson_holmquist_2_from_card(const std::string& card, const s
   law.pressure_at_hugoniot_elastic_limit = read.positive("pressure_at_hugoniot_elastic_limit");
   const double limit = read.positive("hugoniot_elastic_limit");
   if (!(limit > law.pressure_at_hugoniot_elastic_limit))
-    read.refuse("hugoniot_elastic_limit", "must exceed pressure_at_hugoniot_elastic_limit, it is " +
-                                              std::to_string(limit) + " Pa");
+    read.refuse("hugoniot_elastic_limit",
+                "must exceed pressure_at_hugoniot_elastic_limit, it is " + std::to_string(limit) + " Pa");
   law.stress_at_hugoniot_elastic_limit = 1.5 * (limit - law.pressure_at_hugoniot_elastic_limit);
   law.intact_strength_constant = read.positive("intact_strength_constant");
   law.intact_strength_exponent = read.not_negative("intact_strength_exponent");

@@ -37,8 +37,8 @@ bool may_exceed(const ExplicitSolid& solid, std::size_t pack, double bound) {
   const auto f = deformation_gradient_at<Pack>(solid, {pack, 0});
   Pack trace = f[0] * f[0];
   for (int c = 1; c < 9; ++c) trace += f[c] * f[c];
-  const Pack determinant = f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) +
-                           f[2] * (f[3] * f[7] - f[4] * f[6]);
+  const Pack determinant =
+      f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) + f[2] * (f[3] * f[7] - f[4] * f[6]);
   const auto lives = load<Pack>(&solid.element.alive[pack * w]) > Pack(0.5);
   return any(lives && !(trace * trace * trace < bound * determinant * determinant));
 }

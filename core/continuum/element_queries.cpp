@@ -5,7 +5,9 @@ namespace {
 
 constexpr std::size_t w = compute::pack_width;
 
-Place place_of(std::size_t element) { return {element / w, element % w}; }
+Place place_of(std::size_t element) {
+  return {element / w, element % w};
+}
 
 std::array<double, 3> mean_of(const ExplicitSolid& solid, const std::vector<double>& values, std::size_t element) {
   std::array<double, 3> mean{};

@@ -22,7 +22,7 @@ namespace polynya::continuum {
 
 /// Dimensionless coefficients of what is added to the stress of the law.
 struct Numerics {
-  double quadratic_viscosity = 1.5;   ///< bulk viscosity, only in compression
+  double quadratic_viscosity = 1.5;  ///< bulk viscosity, only in compression
   double linear_viscosity = 0.06;
   double hourglass_stiffness = 0.05;  ///< Flanagan and Belytschko's kappa
   double hourglass_viscosity = 0.05;  ///< decay rate of an hourglass mode in units of wave speed / length
@@ -40,9 +40,9 @@ struct ElementState {
   std::vector<double> viscous_energy;         ///< J, work of the bulk viscosity
   std::vector<double> damage;                 ///< 0..1
   std::vector<double> plastic_strain;
-  std::vector<double> bulking_pressure;       ///< Pa
-  std::vector<double> step_limit;             ///< s, stable step of the element alone
-  std::vector<double> alive;                  ///< 1 living, 0 removed
+  std::vector<double> bulking_pressure;  ///< Pa
+  std::vector<double> step_limit;        ///< s, stable step of the element alone
+  std::vector<double> alive;             ///< 1 living, 0 removed
 };
 
 /// Traction -rho c_p v_n A - rho c_s v_t A on the nodes of a boundary that waves should leave through.
@@ -54,8 +54,8 @@ struct DampedNodes {
 
 /// Energies since the start, J. Conserved to round-off: balance() stays at its value of the start.
 struct EnergyAccount {
-  double kinetic = 0;        ///< of v(n-1/2) and v(n+1/2): 1/2 m |v(n)|^2 less its error of second order
-  double internal = 0;       ///< work of the law's stress
+  double kinetic = 0;   ///< of v(n-1/2) and v(n+1/2): 1/2 m |v(n)|^2 less its error of second order
+  double internal = 0;  ///< work of the law's stress
   double hourglass = 0;
   double viscous = 0;        ///< bulk viscosity
   double external_work = 0;  ///< done on the body by external forces and by whatever holds fixed components
@@ -72,15 +72,15 @@ struct ExplicitSolid {
   HexMesh mesh;      ///< reference configuration
   Law law;
   Numerics numerics;
-  double time = 0;   ///< s, t(n) of positions
+  double time = 0;  ///< s, t(n) of positions
 
   // Nodes.
-  std::vector<double> positions;        ///< [n][3], m, at t(n)
-  std::vector<double> velocities;       ///< [n][3], m/s, at t(n+1/2)
-  std::vector<double> internal_force;   ///< [n][3], N, force of the elements ON the nodes; advance_velocities
-                                        ///< adds the traction of non-reflecting boundaries to it
-  std::vector<double> masses;           ///< [n], kg; 0 once every element of the node is removed
-  std::vector<std::uint8_t> fixed;      ///< [n], bit 0, 1, 2: the velocity component x, y, z is held as it is
+  std::vector<double> positions;              ///< [n][3], m, at t(n)
+  std::vector<double> velocities;             ///< [n][3], m/s, at t(n+1/2)
+  std::vector<double> internal_force;         ///< [n][3], N, force of the elements ON the nodes; advance_velocities
+                                              ///< adds the traction of non-reflecting boundaries to it
+  std::vector<double> masses;                 ///< [n], kg; 0 once every element of the node is removed
+  std::vector<std::uint8_t> fixed;            ///< [n], bit 0, 1, 2: the velocity component x, y, z is held as it is
   std::vector<std::uint8_t> living_elements;  ///< [n], number of living elements at the node
 
   ElementState element;
@@ -92,15 +92,15 @@ struct ExplicitSolid {
   double pending_external_work = 0, pending_boundary_flux = 0, pending_step_change = 0;
 
   // Internal to the kernels. Lanes are elements of one pack, W = compute::pack_width.
-  std::vector<std::int32_t> connectivity;    ///< [pack][8][W], 3 x node index; padding lanes repeat element 0
-  std::vector<double> natural_hourglass;     ///< [pack][12][W], hourglass shape of the reference element
-  std::vector<std::uint8_t> irregular;       ///< [pack], 1 if any lane is not a parallelepiped in the reference
-  std::vector<double> hourglass_stiffness;   ///< [e], N/m, undamaged
-  std::vector<double> exposure;              ///< [e], 0 (amid others) to 1 (alone): see element_step
-  std::vector<std::uint8_t> idle;            ///< [pack], 1 if every lane is dead and exerts no force
-  std::vector<double> element_force;         ///< [pack][24][W], N, on local node a, component i: row 3 a + i
-  std::vector<std::int32_t> gather_start;    ///< [n+1]
-  std::vector<std::int32_t> gather_slot;     ///< into element_force, component x; y and z follow at W and 2 W
+  std::vector<std::int32_t> connectivity;   ///< [pack][8][W], 3 x node index; padding lanes repeat element 0
+  std::vector<double> natural_hourglass;    ///< [pack][12][W], hourglass shape of the reference element
+  std::vector<std::uint8_t> irregular;      ///< [pack], 1 if any lane is not a parallelepiped in the reference
+  std::vector<double> hourglass_stiffness;  ///< [e], N/m, undamaged
+  std::vector<double> exposure;             ///< [e], 0 (amid others) to 1 (alone): see element_step
+  std::vector<std::uint8_t> idle;           ///< [pack], 1 if every lane is dead and exerts no force
+  std::vector<double> element_force;        ///< [pack][24][W], N, on local node a, component i: row 3 a + i
+  std::vector<std::int32_t> gather_start;   ///< [n+1]
+  std::vector<std::int32_t> gather_slot;    ///< into element_force, component x; y and z follow at W and 2 W
 
   std::size_t node_count() const { return masses.size(); }
   std::size_t element_count() const { return mesh.element_count(); }
@@ -132,9 +132,9 @@ EnergyAccount energies(const ExplicitSolid& solid);
 
 /// What leaves with an element: its eighth of the mass at each of its nodes.
 struct RemovedElement {
-  double mass = 0;                         ///< kg
-  std::array<double, 3> momentum{};        ///< kg m/s, of v(n+1/2)
-  double kinetic_energy = 0;               ///< J, of v(n+1/2); exactly what the account books as `removed`
+  double mass = 0;                   ///< kg
+  std::array<double, 3> momentum{};  ///< kg m/s, of v(n+1/2)
+  double kinetic_energy = 0;         ///< J, of v(n+1/2); exactly what the account books as `removed`
 };
 
 /// Takes a living element and its mass out. Call between advance_velocities and advance_positions. Its stress, damage
@@ -147,10 +147,10 @@ void add_non_reflecting_boundary(ExplicitSolid& solid, const Plane& plane);
 void hold_boundary_at_rest(ExplicitSolid& solid, std::span<const double> external_force);
 
 // One element, for conversion, output and tests.
-std::array<double, 3> element_centre(const ExplicitSolid& solid, std::size_t element);       ///< m
-std::array<double, 3> element_velocity(const ExplicitSolid& solid, std::size_t element);     ///< m/s, mean of nodes
-Tensor<double> velocity_gradient(const ExplicitSolid& solid, std::size_t element);           ///< 1/s
-Tensor<double> deformation_gradient(const ExplicitSolid& solid, std::size_t element);        ///< at the centre
+std::array<double, 3> element_centre(const ExplicitSolid& solid, std::size_t element);    ///< m
+std::array<double, 3> element_velocity(const ExplicitSolid& solid, std::size_t element);  ///< m/s, mean of nodes
+Tensor<double> velocity_gradient(const ExplicitSolid& solid, std::size_t element);        ///< 1/s
+Tensor<double> deformation_gradient(const ExplicitSolid& solid, std::size_t element);     ///< at the centre
 PointState<double> point_state(const ExplicitSolid& solid, std::size_t element);
 void set_point_state(ExplicitSolid& solid, std::size_t element, const PointState<double>& state);  ///< not the volume
 /// Shortest distance between opposite faces, m (a lower bound for skewed elements).

@@ -4,7 +4,8 @@
 #include "core/continuum/material_point.hpp"
 #include "core/continuum/number.hpp"
 
-/// The eight-node hexahedron with one point: Flanagan & Belytschko 1981, written in the coefficients of the trilinear map
+/// The eight-node hexahedron with one point: Flanagan & Belytschko 1981, written in the coefficients of the trilinear
+/// map
 ///     x(xi, eta, zeta) = c0 + c1 xi + c2 eta + c3 zeta + c4 eta zeta + c5 zeta xi + c6 xi eta + c7 xi eta zeta,
 /// which an eight-point Hadamard transform gives with additions only. c1..c3 are half the edges of the mean
 /// parallelepiped, c4..c7 the hourglass part. Nodal values of a mode are the signs H_m(a).
@@ -19,7 +20,7 @@ using NodalVectors = std::array<std::array<T, 3>, 8>;
 
 /// c_m = 1/8 sum_a H_m(a) n_a, for one component.
 template <class T>
-std::array<T, 8> modes_of(const std::array<T, 8>& n) {
+POLYNYA_INLINE std::array<T, 8> modes_of(const std::array<T, 8>& n) {
   const T s0 = n[1] + n[0], s1 = n[2] + n[3], s2 = n[5] + n[4], s3 = n[6] + n[7];
   const T d0 = n[1] - n[0], d1 = n[2] - n[3], d2 = n[5] - n[4], d3 = n[6] - n[7];
   const T ss0 = s1 + s0, ss1 = s3 + s2, sd0 = s1 - s0, sd1 = s3 - s2;
@@ -30,7 +31,7 @@ std::array<T, 8> modes_of(const std::array<T, 8>& n) {
 
 /// n_a = sum_m c_m H_m(a), for one component.
 template <class T>
-std::array<T, 8> nodal_values(const std::array<T, 8>& c) {
+POLYNYA_INLINE std::array<T, 8> nodal_values(const std::array<T, 8>& c) {
   const T ss0 = c[0] - c[3], ss1 = c[0] + c[3], sd0 = c[2] - c[4], sd1 = c[2] + c[4];
   const T ds0 = c[1] - c[5], ds1 = c[1] + c[5], dd0 = c[6] - c[7], dd1 = c[6] + c[7];
   const T s0 = ss0 - sd0, s1 = ss0 + sd0, s2 = ss1 - sd1, s3 = ss1 + sd1;
@@ -39,7 +40,7 @@ std::array<T, 8> nodal_values(const std::array<T, 8>& c) {
 }
 
 template <class T>
-Modes<T> modes_of(const NodalVectors<T>& nodal) {
+POLYNYA_INLINE Modes<T> modes_of(const NodalVectors<T>& nodal) {
   Modes<T> result;
   for (int i = 0; i < 3; ++i) {
     std::array<T, 8> component;
@@ -51,7 +52,7 @@ Modes<T> modes_of(const NodalVectors<T>& nodal) {
 }
 
 template <class T>
-NodalVectors<T> nodal_values(const Modes<T>& modes) {
+POLYNYA_INLINE NodalVectors<T> nodal_values(const Modes<T>& modes) {
   NodalVectors<T> result;
   for (int i = 0; i < 3; ++i) {
     std::array<T, 8> component;
@@ -63,11 +64,11 @@ NodalVectors<T> nodal_values(const Modes<T>& modes) {
 }
 
 template <class T>
-std::array<T, 3> cross(const std::array<T, 3>& a, const std::array<T, 3>& b) {
+POLYNYA_INLINE std::array<T, 3> cross(const std::array<T, 3>& a, const std::array<T, 3>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 template <class T>
-T dot(const std::array<T, 3>& a, const std::array<T, 3>& b) {
+POLYNYA_INLINE T dot(const std::array<T, 3>& a, const std::array<T, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
@@ -81,7 +82,7 @@ struct Geometry {
 
 /// V/8 = [c1,c2,c3] - ([c1,c5,c6] + [c4,c2,c6] + [c4,c5,c3])/3, square brackets being triple products.
 template <class T>
-Geometry<T> geometry(const Modes<T>& c) {
+POLYNYA_INLINE Geometry<T> geometry(const Modes<T>& c) {
   Geometry<T> g;
   const int next[] = {0, 2, 3, 1}, last[] = {0, 3, 1, 2};
   for (int m = 1; m <= 3; ++m) {
@@ -98,7 +99,7 @@ Geometry<T> geometry(const Modes<T>& c) {
 
 /// Mean velocity gradient L_ij = d v_i / d x_j of the element, 1/s.
 template <class T>
-Tensor<T> mean_gradient(const Modes<T>& velocity, const Geometry<T>& g) {
+POLYNYA_INLINE Tensor<T> mean_gradient(const Modes<T>& velocity, const Geometry<T>& g) {
   Tensor<T> result;
   const T factor = 8.0 / g.volume;
   for (int i = 0; i < 3; ++i)
@@ -110,10 +111,10 @@ Tensor<T> mean_gradient(const Modes<T>& velocity, const Geometry<T>& g) {
   return result;
 }
 
-/// Length whose crossing by a wave bounds the step, m: V / (4 sqrt(lambda)), lambda a bound on the largest eigenvalue of
-/// sum_m gradient gradient^T that is exact for bricks in any orientation (their shortest edge).
+/// Length whose crossing by a wave bounds the step, m: V / (4 sqrt(lambda)), lambda a bound on the largest eigenvalue
+/// of sum_m gradient gradient^T that is exact for bricks in any orientation (their shortest edge).
 template <class T>
-T shortest_length(const Geometry<T>& g) {
+POLYNYA_INLINE T shortest_length(const Geometry<T>& g) {
   const auto magnitude = [](const T& x) { return maximum(x, T(-x)); };
   const T d12 = magnitude(dot(g.gradient[1], g.gradient[2]));
   const T d23 = magnitude(dot(g.gradient[2], g.gradient[3]));
@@ -121,15 +122,15 @@ T shortest_length(const Geometry<T>& g) {
   const T row1 = dot(g.gradient[1], g.gradient[1]) + d12 + d31;
   const T row2 = dot(g.gradient[2], g.gradient[2]) + d12 + d23;
   const T row3 = dot(g.gradient[3], g.gradient[3]) + d23 + d31;
-  const T twisted = dot(g.gradient[4], g.gradient[4]) + dot(g.gradient[5], g.gradient[5]) +
-                    dot(g.gradient[6], g.gradient[6]);
+  const T twisted =
+      dot(g.gradient[4], g.gradient[4]) + dot(g.gradient[5], g.gradient[5]) + dot(g.gradient[6], g.gradient[6]);
   const T largest = maximum(maximum(row1, row2), row3) + twisted;
   return 0.25 * g.volume / square_root(maximum(largest, T(1e-290)));
 }
 
 /// Modes of the nodal forces -sum_j stress_ij dV/dx_ja. stress: any tensor, row by row.
 template <class T>
-Modes<T> stress_forces(const Tensor<T>& stress, const Geometry<T>& g) {
+POLYNYA_INLINE Modes<T> stress_forces(const Tensor<T>& stress, const Geometry<T>& g) {
   Modes<T> force{};
   for (int m = 1; m <= 6; ++m)
     for (int i = 0; i < 3; ++i)

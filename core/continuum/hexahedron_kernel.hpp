@@ -22,7 +22,8 @@ struct Place {
 };
 
 template <class T>
-NodalVectors<T> nodal_vectors(const ExplicitSolid& solid, const std::vector<double>& values, Place place) {
+POLYNYA_INLINE NodalVectors<T> nodal_vectors(const ExplicitSolid& solid, const std::vector<double>& values,
+                                             Place place) {
   NodalVectors<T> result;
   for (std::size_t a = 0; a < 8; ++a) {
     const std::int32_t* index = &solid.connectivity[place.row(8, a)];
@@ -32,7 +33,7 @@ NodalVectors<T> nodal_vectors(const ExplicitSolid& solid, const std::vector<doub
 }
 
 template <class T>
-PointState<T> load_state(const ElementState& element, std::size_t e) {
+POLYNYA_INLINE PointState<T> load_state(const ElementState& element, std::size_t e) {
   PointState<T> state;
   for (int c = 0; c < 6; ++c) state.stress[c] = load<T>(&element.stress[c][e]);
   state.damage = load<T>(&element.damage[e]);
@@ -48,26 +49,28 @@ struct BulkViscosity {
   T speed;     ///< m/s, by which it shortens the stable step
 };
 template <class T>
-BulkViscosity<T> bulk_viscosity(const Numerics& numerics, const T& expansion, const T& length, const T& wave_speed,
-                                const T& density) {
+POLYNYA_INLINE BulkViscosity<T> bulk_viscosity(const Numerics& numerics, const T& expansion, const T& length,
+                                               const T& wave_speed, const T& density) {
   const T compression = maximum(T(-expansion), T(0.0));
-  const T speed = select(expansion < T(0.0), T(numerics.quadratic_viscosity * length * compression +
-                                               numerics.linear_viscosity * wave_speed), T(0.0));
+  const T speed =
+      select(expansion < T(0.0),
+             T(numerics.quadratic_viscosity * length * compression + numerics.linear_viscosity * wave_speed), T(0.0));
   return {density * length * compression * speed, speed};
 }
 
 /// Largest stable step of an element, s. Modes in which an element and few neighbours breathe are stiffer than plane
 /// waves by up to 3 K / (K + 4 G/3); exposure (0..1) says how much of that its surroundings allow.
 template <class T>
-T element_step(const T& bulk, double shear, const T& exposure, const T& density, const T& length, const T& viscous_speed) {
+POLYNYA_INLINE T element_step(const T& bulk, double shear, const T& exposure, const T& density, const T& length,
+                              const T& viscous_speed) {
   const T excess = maximum(T(2.0 * bulk - 4.0 / 3.0 * shear), T(0.0));
   const T square = (bulk + 4.0 / 3.0 * shear + exposure * excess) / density;
   return length / (viscous_speed + square_root(T(viscous_speed * viscous_speed + square)));
 }
 
 template <class T>
-HourglassInput<T> hourglass_input(const ExplicitSolid& solid, std::size_t e, const T& damage, const T& flow,
-                                  const T& area, const T& length, const T& wave_speed) {
+POLYNYA_INLINE HourglassInput<T> hourglass_input(const ExplicitSolid& solid, std::size_t e, const T& damage,
+                                                 const T& flow, const T& area, const T& length, const T& wave_speed) {
   const T rate = load<T>(&solid.element.mass[e]) * wave_speed / (64.0 * length);
   return {load<T>(&solid.hourglass_stiffness[e]) * (1.0 - damage), solid.numerics.hourglass_viscosity * rate,
           solid.numerics.hourglass_floor * rate, flow * area * (1.0 / 12.0)};
@@ -76,8 +79,8 @@ HourglassInput<T> hourglass_input(const ExplicitSolid& solid, std::size_t e, con
 /// Work of the old and the new nodal forces over the step, by the trapezoidal rule: what central differences take from
 /// the kinetic energy, to the last digit. Replaces the old forces by the new ones.
 template <class T>
-T exchange_forces(ExplicitSolid& solid, Place place, const NodalVectors<T>& velocity, const NodalVectors<T>& force,
-                  double dt) {
+POLYNYA_INLINE T exchange_forces(ExplicitSolid& solid, Place place, const NodalVectors<T>& velocity,
+                                 const NodalVectors<T>& force, double dt) {
   T power = T(0.0);
   for (std::size_t a = 0; a < 8; ++a)
     for (std::size_t i = 0; i < 3; ++i) {
@@ -89,18 +92,20 @@ T exchange_forces(ExplicitSolid& solid, Place place, const NodalVectors<T>& velo
 }
 
 template <class T>
-Tensor<T> full_tensor(const SymmetricTensor<T>& s) {
+POLYNYA_INLINE Tensor<T> full_tensor(const SymmetricTensor<T>& s) {
   return {s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]};
 }
 
 /// Stores `value` in the living lanes, or everywhere.
 template <class T, class Mask>
-void store_living(const T& value, std::vector<double>& array, std::size_t e, bool all_live, const Mask& lives) {
+POLYNYA_INLINE void store_living(const T& value, std::vector<double>& array, std::size_t e, bool all_live,
+                                 const Mask& lives) {
   double* to = &array[e];
   store(all_live ? value : select(lives, value, load<T>(to)), to);
 }
 template <class T, class Mask>
-void add_living(const T& value, std::vector<double>& array, std::size_t e, bool all_live, const Mask& lives) {
+POLYNYA_INLINE void add_living(const T& value, std::vector<double>& array, std::size_t e, bool all_live,
+                               const Mask& lives) {
   double* to = &array[e];
   const T old = load<T>(to);
   store(T(old + (all_live ? value : select(lives, value, T(0.0)))), to);
@@ -147,12 +152,10 @@ bool advance_elements(ExplicitSolid& solid, const LawType& law, Place place, dou
       for (std::size_t j = 0; j < 3; ++j) natural[m][j] = load<T>(&solid.natural_hourglass[place.row(12, 3 * m + j)]);
 
   Modes<T> hourglass_force{};
-  const T stiff_power =
-      add_hourglass_stiffness(control, x, v, T(dt), irregular ? &natural : nullptr, hourglass_force);
+  const T stiff_power = add_hourglass_stiffness(control, x, v, T(dt), irregular ? &natural : nullptr, hourglass_force);
   Tensor<T> stress = full_tensor(state.stress);
   for (int i = 0; i < 9; i += 4) stress[i] -= viscous.pressure;
-  const T viscous_power =
-      add_hourglass_viscosity(control, x, middle, v, gradient, now.volume, hourglass_force, stress);
+  const T viscous_power = add_hourglass_viscosity(control, x, middle, v, gradient, now.volume, hourglass_force, stress);
   Modes<T> force = stress_forces(stress, now);
   for (int m = 1; m < 8; ++m)
     for (int i = 0; i < 3; ++i) force[m][i] += hourglass_force[m][i];

@@ -3,15 +3,14 @@
 
 #include "core/continuum/hexahedron.hpp"
 
-/// Hourglass control after Flanagan & Belytschko 1981: forces along the shapes that carry a nodal vector field beyond its
-/// linear part. Both forms vanish for every linear field and give no torque.
+/// Hourglass control after Flanagan & Belytschko 1981: forces along the shapes that carry a nodal vector field beyond
+/// its linear part. Both forms vanish for every linear field and give no torque.
 ///
-/// Stiffness: total form. The hourglass deformation is what the modes 4..7 hold beyond the reference shape carried along
-/// by the mean motion, G = g - c_j a_j; with natural coordinates c of the reference element it needs no history, is
-/// objective, and for constant stiffness has a potential 32 k |G|^2.
-/// Viscosity: on the rate R = g' - L g.
-/// The magnitudes of both are capped by the force at which bending would bring the outer fibre to the flow stress Y,
-/// Y A / 12 with A the face area: what a crushed element cannot carry, its hourglass modes do not carry either.
+/// Stiffness: total form. The hourglass deformation is what the modes 4..7 hold beyond the reference shape carried
+/// along by the mean motion, G = g - c_j a_j; with natural coordinates c of the reference element it needs no history,
+/// is objective, and for constant stiffness has a potential 32 k |G|^2. Viscosity: on the rate R = g' - L g. The
+/// magnitudes of both are capped by the force at which bending would bring the outer fibre to the flow stress Y, Y A /
+/// 12 with A the face area: what a crushed element cannot carry, its hourglass modes do not carry either.
 namespace polynya::continuum {
 
 template <class T>
@@ -23,7 +22,7 @@ struct HourglassInput {
 };
 
 template <class T>
-T magnitude_of(const std::array<std::array<T, 3>, 4>& v) {
+POLYNYA_INLINE T magnitude_of(const std::array<std::array<T, 3>, 4>& v) {
   T sum = dot(v[0], v[0]);
   for (int m = 1; m < 4; ++m) sum += dot(v[m], v[m]);
   return square_root(sum);
@@ -31,7 +30,8 @@ T magnitude_of(const std::array<std::array<T, 3>, 4>& v) {
 
 /// v_m - c_jm v_j for the modes m = 4..7. natural: [m - 4][j], or null where all are zero.
 template <class T>
-std::array<std::array<T, 3>, 4> beyond_mean_motion(const Modes<T>& v, const std::array<std::array<T, 3>, 4>* natural) {
+POLYNYA_INLINE std::array<std::array<T, 3>, 4> beyond_mean_motion(const Modes<T>& v,
+                                                                  const std::array<std::array<T, 3>, 4>* natural) {
   std::array<std::array<T, 3>, 4> result{v[4], v[5], v[6], v[7]};
   if (natural)
     for (int m = 0; m < 4; ++m)
@@ -43,8 +43,8 @@ std::array<std::array<T, 3>, 4> beyond_mean_motion(const Modes<T>& v, const std:
 /// Adds the stiffness part to the modes of the nodal force; returns its power against the velocity at mid-step, W
 /// positive where energy is taken up.
 template <class T>
-T add_hourglass_stiffness(const HourglassInput<T>& in, const Modes<T>& x, const Modes<T>& v, T dt,
-                          const std::array<std::array<T, 3>, 4>* natural, Modes<T>& force) {
+POLYNYA_INLINE T add_hourglass_stiffness(const HourglassInput<T>& in, const Modes<T>& x, const Modes<T>& v, T dt,
+                                         const std::array<std::array<T, 3>, 4>* natural, Modes<T>& force) {
   const auto shape = beyond_mean_motion(x, natural);
   const auto rate = beyond_mean_motion(v, natural);
   const T size = 8.0 * in.stiffness * magnitude_of(shape);
@@ -64,8 +64,9 @@ T add_hourglass_stiffness(const HourglassInput<T>& in, const Modes<T>& x, const 
 /// Adds the viscous part: forces on the modes 4..7, and to `stress` what makes them orthogonal to linear fields.
 /// middle: modes at mid-step. Returns the dissipated power, W.
 template <class T>
-T add_hourglass_viscosity(const HourglassInput<T>& in, const Modes<T>& x, const Modes<T>& middle, const Modes<T>& v,
-                          const Tensor<T>& gradient, const T& volume, Modes<T>& force, Tensor<T>& stress) {
+POLYNYA_INLINE T add_hourglass_viscosity(const HourglassInput<T>& in, const Modes<T>& x, const Modes<T>& middle,
+                                         const Modes<T>& v, const Tensor<T>& gradient, const T& volume, Modes<T>& force,
+                                         Tensor<T>& stress) {
   std::array<std::array<T, 3>, 4> rate;
   for (int m = 0; m < 4; ++m)
     for (int i = 0; i < 3; ++i)

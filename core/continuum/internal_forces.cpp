@@ -11,7 +11,8 @@ namespace polynya::continuum {
 void report_bad_element(const ExplicitSolid& solid, std::size_t first_pack) {
   const ElementState& element = solid.element;
   const std::size_t first = first_pack * compute::pack_width;
-  // The volume may be positive again at the end of a step through inversion: then the pack's first living lane is named.
+  // The volume may be positive again at the end of a step through inversion: then the pack's first living lane is
+  // named.
   std::size_t bad = solid.element_count();
   for (std::size_t e = first; e < first + compute::pack_width && e < solid.element_count(); ++e) {
     if (element.alive[e] == 0) continue;

@@ -13,29 +13,29 @@
 namespace polynya::continuum {
 
 struct JohnsonHolmquist2 {
-  double density = 0;                               ///< kg/m^3, reference
-  double shear_modulus = 0;                         ///< G, Pa
-  double bulk_modulus = 0;                          ///< K1, Pa
-  double bulk_modulus_2 = 0;                        ///< K2, Pa
-  double bulk_modulus_3 = 0;                        ///< K3, Pa
-  double stress_at_hugoniot_elastic_limit = 0;      ///< sigma_HEL = 1.5 (HEL - P_HEL), Pa
-  double pressure_at_hugoniot_elastic_limit = 0;    ///< P_HEL, Pa
-  double intact_strength_constant = 0;              ///< A
-  double intact_strength_exponent = 0;              ///< N
-  double strain_rate_constant = 0;                  ///< C
-  double fractured_strength_constant = 0;           ///< B
-  double fractured_strength_exponent = 0;           ///< M
-  double maximum_tensile_pressure = 0;              ///< T, Pa
-  double damage_constant = 0;                       ///< D1
-  double damage_exponent = 0;                       ///< D2
-  double bulking_fraction = 0;                      ///< beta
-  double reference_strain_rate = 1;                 ///< 1/s
-  double maximum_fractured_strength = 1e300;        ///< sigma_f,max as a fraction of sigma_HEL
+  double density = 0;                             ///< kg/m^3, reference
+  double shear_modulus = 0;                       ///< G, Pa
+  double bulk_modulus = 0;                        ///< K1, Pa
+  double bulk_modulus_2 = 0;                      ///< K2, Pa
+  double bulk_modulus_3 = 0;                      ///< K3, Pa
+  double stress_at_hugoniot_elastic_limit = 0;    ///< sigma_HEL = 1.5 (HEL - P_HEL), Pa
+  double pressure_at_hugoniot_elastic_limit = 0;  ///< P_HEL, Pa
+  double intact_strength_constant = 0;            ///< A
+  double intact_strength_exponent = 0;            ///< N
+  double strain_rate_constant = 0;                ///< C
+  double fractured_strength_constant = 0;         ///< B
+  double fractured_strength_exponent = 0;         ///< M
+  double maximum_tensile_pressure = 0;            ///< T, Pa
+  double damage_constant = 0;                     ///< D1
+  double damage_exponent = 0;                     ///< D2
+  double bulking_fraction = 0;                    ///< beta
+  double reference_strain_rate = 1;               ///< 1/s
+  double maximum_fractured_strength = 1e300;      ///< sigma_f,max as a fraction of sigma_HEL
 };
 
 /// From the values named like the members, with hugoniot_elastic_limit (HEL, Pa) in place of the stress there.
-/// bulk_modulus_2, bulk_modulus_3, bulking_fraction (0), reference_strain_rate (1/s) and maximum_fractured_strength (none)
-/// may be left out. Throws std::invalid_argument naming the card and the key that is missing or unphysical.
+/// bulk_modulus_2, bulk_modulus_3, bulking_fraction (0), reference_strain_rate (1/s) and maximum_fractured_strength
+/// (none) may be left out. Throws std::invalid_argument naming the card and the key that is missing or unphysical.
 JohnsonHolmquist2 johnson_holmquist_2_from_card(const std::string& card, const std::map<std::string, double>& values);
 
 /// Strengths of intact and fractured material and the strain at which it fractures, all at one pressure and rate.
@@ -47,7 +47,7 @@ struct JohnsonHolmquist2Strength {
 
 /// 1 + C ln(rate / reference), 1 at and below the reference rate.
 template <class T>
-T rate_factor(const JohnsonHolmquist2& law, const T& rate) {
+POLYNYA_INLINE T rate_factor(const JohnsonHolmquist2& law, const T& rate) {
   if (law.strain_rate_constant == 0) return T(1.0);
   const T relative = maximum(T(rate / law.reference_strain_rate), T(1.0));
   return 1.0 + law.strain_rate_constant * 0.69314718055994531 * log2_of(relative);
@@ -57,8 +57,8 @@ T rate_factor(const JohnsonHolmquist2& law, const T& rate) {
 /// pressure in Pa, positive in compression; rate: equivalent strain rate, 1/s. The strength at damage D is
 /// sigma_i - D (sigma_i - sigma_f).
 template <class T>
-JohnsonHolmquist2Strength<T> strength(const JohnsonHolmquist2& law, const T& pressure, const T& rate, bool fractured,
-                                      bool fracture_strain) {
+POLYNYA_INLINE JohnsonHolmquist2Strength<T> strength(const JohnsonHolmquist2& law, const T& pressure, const T& rate,
+                                                     bool fractured, bool fracture_strain) {
   const T tiny = T(1e-290);
   const T zero = T(0.0);
   const T tension = (pressure + law.maximum_tensile_pressure) / law.pressure_at_hugoniot_elastic_limit;
@@ -67,9 +67,9 @@ JohnsonHolmquist2Strength<T> strength(const JohnsonHolmquist2& law, const T& pre
   const T scale = law.stress_at_hugoniot_elastic_limit * rate_factor(law, rate);
 
   JohnsonHolmquist2Strength<T> result{zero, zero, zero};
-  result.intact = select(tension > zero,
-                         T(scale * law.intact_strength_constant * exp2_of(T(law.intact_strength_exponent * log_tension))),
-                         zero);
+  result.intact =
+      select(tension > zero,
+             T(scale * law.intact_strength_constant * exp2_of(T(law.intact_strength_exponent * log_tension))), zero);
   if (fractured && law.fractured_strength_constant > 0) {
     const T power = exp2_of(T(law.fractured_strength_exponent * log2_of(maximum(compression, tiny))));
     const T bounded = minimum(T(scale * law.fractured_strength_constant * power),
@@ -77,14 +77,14 @@ JohnsonHolmquist2Strength<T> strength(const JohnsonHolmquist2& law, const T& pre
     result.fractured = select(compression > zero, bounded, zero);
   }
   if (fracture_strain)
-    result.fracture_strain = select(
-        tension > zero, T(law.damage_constant * exp2_of(T(law.damage_exponent * log_tension))), zero);
+    result.fracture_strain =
+        select(tension > zero, T(law.damage_constant * exp2_of(T(law.damage_exponent * log_tension))), zero);
   return result;
 }
 
 /// P = K1 mu + dP, in compression also K2 mu^2 + K3 mu^3, Pa. The cut-off at -T (1 - D) is applied by advance_stress.
 template <class T>
-T pressure(const JohnsonHolmquist2& law, const T& mu, const T& bulking_pressure) {
+POLYNYA_INLINE T pressure(const JohnsonHolmquist2& law, const T& mu, const T& bulking_pressure) {
   const T compression = maximum(mu, T(0.0));
   return law.bulk_modulus * mu + compression * compression * (law.bulk_modulus_2 + law.bulk_modulus_3 * compression) +
          bulking_pressure;
@@ -92,38 +92,39 @@ T pressure(const JohnsonHolmquist2& law, const T& mu, const T& bulking_pressure)
 
 /// Tangent bulk modulus (1 + mu) dP/dmu, Pa.
 template <class T>
-T tangent_bulk_modulus(const JohnsonHolmquist2& law, const PointState<T>& state) {
+POLYNYA_INLINE T tangent_bulk_modulus(const JohnsonHolmquist2& law, const PointState<T>& state) {
   const T density_ratio = 1.0 / state.relative_volume;
   const T compression = maximum(T(density_ratio - 1.0), T(0.0));
-  return density_ratio * (law.bulk_modulus + compression * (2.0 * law.bulk_modulus_2 +
-                                                            3.0 * law.bulk_modulus_3 * compression));
+  return density_ratio *
+         (law.bulk_modulus + compression * (2.0 * law.bulk_modulus_2 + 3.0 * law.bulk_modulus_3 * compression));
 }
 
 /// Von Mises stress of a deviator, Pa.
 template <class T>
-T equivalent_stress(const SymmetricTensor<T>& s) {
-  return square_root(T(1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) +
-                       3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])));
+POLYNYA_INLINE T equivalent_stress(const SymmetricTensor<T>& s) {
+  return square_root(
+      T(1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])));
 }
 
 /// Damage after the plastic strain `increment`; where the fracture strain is 0 any yielding fractures.
 template <class T>
-T grown_damage(const JohnsonHolmquist2Strength<T>& y, const T& damage, const T& increment) {
+POLYNYA_INLINE T grown_damage(const JohnsonHolmquist2Strength<T>& y, const T& damage, const T& increment) {
   const T grown = damage + increment / maximum(y.fracture_strain, T(1e-290));
   return select(y.fracture_strain > T(0.0), minimum(grown, T(1.0)), T(1.0));
 }
 
 /// Bulking: a share beta of the deviatoric elastic energy that the loss of strength sets free becomes pressure.
 template <class T>
-T bulked_pressure(const JohnsonHolmquist2& law, const T& mu, const T& bulking_pressure, const T& before, const T& after) {
+POLYNYA_INLINE T bulked_pressure(const JohnsonHolmquist2& law, const T& mu, const T& bulking_pressure, const T& before,
+                                 const T& after) {
   const T released = maximum(T((before * before - after * after) / (6.0 * law.shear_modulus)), T(0.0));
   const T linear = law.bulk_modulus * mu;
   const T total = linear + bulking_pressure;
   return square_root(T(total * total + 2.0 * law.bulking_fraction * law.bulk_modulus * released)) - linear;
 }
 
-/// Plastic flow of one step: radial return to the strength at the old damage, then damage and bulking. The strength lost
-/// to the damage of a step is returned to in the next one; so the law follows its rate equations where they have a
+/// Plastic flow of one step: radial return to the strength at the old damage, then damage and bulking. The strength
+/// lost to the damage of a step is returned to in the next one; so the law follows its rate equations where they have a
 /// solution, and fractures within a few steps where the strength falls faster than elastic unloading can follow.
 template <class T>
 void flow_plastically(const JohnsonHolmquist2& law, PointState<T>& state, SymmetricTensor<T>& deviator, const T& mu,
@@ -151,7 +152,8 @@ void flow_plastically(const JohnsonHolmquist2& law, PointState<T>& state, Symmet
 /// One step of the law. On entry the stress is the old one, already rotated, and state.relative_volume the new one.
 /// strain: D dt of the step. Returns the flow stress of the step (von Mises measure, Pa).
 template <class T>
-T advance_stress(const JohnsonHolmquist2& law, PointState<T>& state, const SymmetricTensor<T>& strain, T dt) {
+POLYNYA_INLINE T advance_stress(const JohnsonHolmquist2& law, PointState<T>& state, const SymmetricTensor<T>& strain,
+                                T dt) {
   const T zero = T(0.0), one = T(1.0);
   const T mean_strain = (strain[0] + strain[1] + strain[2]) * (1.0 / 3.0);
   const T mean_stress = (state.stress[0] + state.stress[1] + state.stress[2]) * (1.0 / 3.0);

@@ -3,7 +3,8 @@
 
 namespace polynya::continuum {
 
-/// Symmetric tensors: xx, yy, zz, xy, yz, zx (tensor components, not engineering shear). Stress: Pa, positive in tension.
+/// Symmetric tensors: xx, yy, zz, xy, yz, zx (tensor components, not engineering shear). Stress: Pa, positive in
+/// tension.
 template <class T>
 using SymmetricTensor = std::array<T, 6>;
 

@@ -29,8 +29,7 @@ std::map<std::int32_t, double> areas_on_plane(const ExplicitSolid& solid, const 
       const Eigen::Vector3d p = node(corner[2]) - node(corner[0]), q = node(corner[3]) - node(corner[1]);
       const double size = p.norm();
       bool on_plane = true;
-      for (std::int32_t n : corner)
-        on_plane = on_plane && std::abs(normal.dot(node(n)) - plane.offset) < 1e-6 * size;
+      for (std::int32_t n : corner) on_plane = on_plane && std::abs(normal.dot(node(n)) - plane.offset) < 1e-6 * size;
       if (!on_plane) continue;
       const double area = 0.5 * p.cross(q).norm();
       for (std::int32_t n : corner) areas[n] += 0.25 * area;
@@ -58,7 +57,8 @@ void add_non_reflecting_boundary(ExplicitSolid& solid, const Plane& plane) {
       const int i = row[c], j = column[c];
       if ((solid.fixed[node] >> i & 1) || (solid.fixed[node] >> j & 1)) continue;
       solid.damped.damping[6 * entry->second + c] +=
-          rho * area * ((i == j ? shear_speed : 0.0) + (normal_speed - shear_speed) * plane.normal[i] * plane.normal[j]);
+          rho * area *
+          ((i == j ? shear_speed : 0.0) + (normal_speed - shear_speed) * plane.normal[i] * plane.normal[j]);
     }
   }
 }

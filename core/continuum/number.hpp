@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <experimental/simd>
 
+/// For the small functions of kernels: a pack that is handed over through memory costs more than the arithmetic on it.
+#define POLYNYA_INLINE [[gnu::always_inline]] inline
+
 /// What kernels ask of a number, for plain doubles and for packs of them, so that one source serves both.
 namespace polynya::continuum {
 
@@ -26,50 +29,55 @@ template <class T>
 inline constexpr std::size_t width_of = NumberTraits<T>::width;
 
 /// condition ? yes : no, lane by lane.
-inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
+POLYNYA_INLINE double select(bool condition, double yes, double no) {
+  return condition ? yes : no;
+}
 template <PackNumber T>
-T select(const typename T::mask_type& condition, const T& yes, const T& no) {
+POLYNYA_INLINE T select(const typename T::mask_type& condition, const T& yes, const T& no) {
   T result = no;
   stdx::where(condition, result) = yes;
   return result;
 }
 
-inline bool any(bool condition) { return condition; }
+POLYNYA_INLINE bool any(bool condition) {
+  return condition;
+}
 template <class M>
-  requires stdx::is_simd_mask_v<M>
-bool any(const M& condition) {
+requires stdx::is_simd_mask_v<M> POLYNYA_INLINE bool any(const M& condition) {
   return stdx::any_of(condition);
 }
 
 template <class T>
-T maximum(const T& a, const T& b) {
+POLYNYA_INLINE T maximum(const T& a, const T& b) {
   return select(a > b, a, b);
 }
 template <class T>
-T minimum(const T& a, const T& b) {
+POLYNYA_INLINE T minimum(const T& a, const T& b) {
   return select(a < b, a, b);
 }
 
-inline double square_root(double x) { return std::sqrt(x); }
+POLYNYA_INLINE double square_root(double x) {
+  return std::sqrt(x);
+}
 // gcc 12 calls the undefined operand of its own AVX-512 square root uninitialized.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 template <PackNumber T>
-T square_root(const T& x) {
+POLYNYA_INLINE T square_root(const T& x) {
   return stdx::sqrt(x);
 }
 #pragma GCC diagnostic pop
 
 template <class T>
-T load(const double* from) {
+POLYNYA_INLINE T load(const double* from) {
   if constexpr (PackNumber<T>)
     return T(from, stdx::element_aligned);
   else
     return *from;
 }
 template <class T>
-void store(const T& value, double* to) {
+POLYNYA_INLINE void store(const T& value, double* to) {
   if constexpr (PackNumber<T>)
     value.copy_to(to, stdx::element_aligned);
   else
@@ -78,7 +86,7 @@ void store(const T& value, double* to) {
 
 /// from[index[lane]] for each lane.
 template <class T>
-T gather(const double* from, const std::int32_t* index) {
+POLYNYA_INLINE T gather(const double* from, const std::int32_t* index) {
   if constexpr (PackNumber<T>)
     return T([&](auto lane) { return from[index[lane]]; });
   else

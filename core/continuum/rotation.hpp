@@ -5,7 +5,7 @@ namespace polynya::continuum {
 
 /// D dt, the symmetric part of the velocity gradient times the step.
 template <class T>
-SymmetricTensor<T> strain_increment(const Tensor<T>& gradient, T dt) {
+POLYNYA_INLINE SymmetricTensor<T> strain_increment(const Tensor<T>& gradient, T dt) {
   const T half = 0.5 * dt;
   return {dt * gradient[0],
           dt * gradient[4],
@@ -18,7 +18,7 @@ SymmetricTensor<T> strain_increment(const Tensor<T>& gradient, T dt) {
 /// Rotation of a step from the spin W at mid-step: (I - W dt/2)^-1 (I + W dt/2), exact for rigid rotations whose
 /// velocity is displacement / dt. Hughes & Winget 1980.
 template <class T>
-Tensor<T> hughes_winget_rotation(const Tensor<T>& gradient, T dt) {
+POLYNYA_INLINE Tensor<T> hughes_winget_rotation(const Tensor<T>& gradient, T dt) {
   // Axial vector of W dt/2; the Cayley transform is I + 2/(1 + w.w) (w^ + w^ w^).
   const T quarter = 0.25 * dt;
   const T x = quarter * (gradient[7] - gradient[5]);
@@ -32,7 +32,7 @@ Tensor<T> hughes_winget_rotation(const Tensor<T>& gradient, T dt) {
 
 /// R s R^T.
 template <class T>
-SymmetricTensor<T> rotated(const SymmetricTensor<T>& s, const Tensor<T>& r) {
+POLYNYA_INLINE SymmetricTensor<T> rotated(const SymmetricTensor<T>& s, const Tensor<T>& r) {
   Tensor<T> a;  // R s
   for (int i = 0; i < 3; ++i) {
     const T &p = r[3 * i], &q = r[3 * i + 1], &u = r[3 * i + 2];

@@ -21,8 +21,7 @@ std::array<std::int32_t, 4> face_nodes(const HexMesh& mesh, std::size_t element,
 
 bool lies_on(const HexMesh& mesh, const std::array<std::int32_t, 4>& nodes, const Plane& plane) {
   double size = 0;
-  for (int i = 0; i < 3; ++i)
-    size += std::pow(mesh.nodes[3 * nodes[2] + i] - mesh.nodes[3 * nodes[0] + i], 2);
+  for (int i = 0; i < 3; ++i) size += std::pow(mesh.nodes[3 * nodes[2] + i] - mesh.nodes[3 * nodes[0] + i], 2);
   const double tolerance = 1e-6 * std::sqrt(size);
   return std::all_of(nodes.begin(), nodes.end(), [&](std::int32_t n) {
     double distance = -plane.offset;

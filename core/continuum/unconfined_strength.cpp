@@ -25,8 +25,12 @@ double root(const JohnsonHolmquist2& law, double rate, double pressure_per_stres
 
 }  // namespace
 
-double unconfined_compressive_strength(const JohnsonHolmquist2& law, double rate) { return root(law, rate, 1.0 / 3.0); }
+double unconfined_compressive_strength(const JohnsonHolmquist2& law, double rate) {
+  return root(law, rate, 1.0 / 3.0);
+}
 
-double uniaxial_tensile_strength(const JohnsonHolmquist2& law, double rate) { return root(law, rate, -1.0 / 3.0); }
+double uniaxial_tensile_strength(const JohnsonHolmquist2& law, double rate) {
+  return root(law, rate, -1.0 / 3.0);
+}
 
 }  // namespace polynya::continuum

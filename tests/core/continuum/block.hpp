@@ -23,7 +23,8 @@ inline continuum::HexMesh block(std::array<int, 3> n, std::array<double, 3> size
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i)
         for (int z = 0; z < 2; ++z)
-          for (std::int32_t v : {node(i, j, k + z), node(i + 1, j, k + z), node(i + 1, j + 1, k + z), node(i, j + 1, k + z)})
+          for (std::int32_t v :
+               {node(i, j, k + z), node(i + 1, j, k + z), node(i + 1, j + 1, k + z), node(i, j + 1, k + z)})
             mesh.elements.push_back(v);
   return mesh;
 }

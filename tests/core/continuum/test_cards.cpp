@@ -24,15 +24,18 @@ TEST(MaterialCard, RefusesUnphysicalConstants) {
             std::string::npos);
   EXPECT_NE(message_of("elastic", {{"density", 1}, {"youngs_modulus", 9e9}, {"poisson_ratio", 0.5}}).find("poisson"),
             std::string::npos);
-  EXPECT_NE(message_of("johnson_holmquist_2",
-                       {{"density", 900}, {"shear_modulus", 4e9}, {"bulk_modulus", 8e9},
-                        {"pressure_at_hugoniot_elastic_limit", 3e9}, {"hugoniot_elastic_limit", 2e9}})
+  EXPECT_NE(message_of("johnson_holmquist_2", {{"density", 900},
+                                               {"shear_modulus", 4e9},
+                                               {"bulk_modulus", 8e9},
+                                               {"pressure_at_hugoniot_elastic_limit", 3e9},
+                                               {"hugoniot_elastic_limit", 2e9}})
                 .find("hugoniot_elastic_limit must exceed"),
             std::string::npos);
 }
 
 TEST(MaterialCard, RefusesAnUnknownLaw) {
-  EXPECT_EQ(message_of("rubber", {}), "material card 'ice.test': law is 'rubber', a solid needs elastic or johnson_holmquist_2");
+  EXPECT_EQ(message_of("rubber", {}),
+            "material card 'ice.test': law is 'rubber', a solid needs elastic or johnson_holmquist_2");
 }
 
 TEST(MaterialCard, ElasticConstantsGiveTheWaveSpeeds) {

@@ -32,7 +32,8 @@ TEST(EffectiveStrain, IsZeroForChangeOfVolume) {
 
 TEST(EffectiveStrain, OfIncompressibleStretchIsItsLogarithm) {
   const double l = 1.35;
-  EXPECT_NEAR(effective_strain(deformed({l, 0, 0, 0, 1 / std::sqrt(l), 0, 0, 0, 1 / std::sqrt(l)}), 0), std::log(l), 1e-14);
+  EXPECT_NEAR(effective_strain(deformed({l, 0, 0, 0, 1 / std::sqrt(l), 0, 0, 0, 1 / std::sqrt(l)}), 0), std::log(l),
+              1e-14);
 }
 
 TEST(EffectiveStrain, OfUniaxialStrainIsTwoThirdsOfTheLogarithm) {
@@ -41,7 +42,8 @@ TEST(EffectiveStrain, OfUniaxialStrainIsTwoThirdsOfTheLogarithm) {
 
 TEST(EffectiveStrain, OfSimpleShearFollowsItsPrincipalStretches) {
   const double shear = 0.8, stretch = shear / 2 + std::sqrt(1 + shear * shear / 4);
-  EXPECT_NEAR(effective_strain(deformed({1, shear, 0, 0, 1, 0, 0, 0, 1}), 0), 2 / std::sqrt(3.0) * std::log(stretch), 1e-14);
+  EXPECT_NEAR(effective_strain(deformed({1, shear, 0, 0, 1, 0, 0, 0, 1}), 0), 2 / std::sqrt(3.0) * std::log(stretch),
+              1e-14);
 }
 
 TEST(EffectiveStrain, CheapBoundFindsWhatTheExactValueFinds) {

@@ -19,12 +19,20 @@ HexMesh distorted() {
 }
 
 TEST(Energy, BalanceHoldsToRoundOffWithChangingStepsAndForces) {
-  const auto brittle = johnson_holmquist_2_from_card("ice", {
-      {"density", 900}, {"shear_modulus", 4.4444e9}, {"bulk_modulus", 8.1254e9}, {"hugoniot_elastic_limit", 5.2e9},
-      {"pressure_at_hugoniot_elastic_limit", 3.4381e9}, {"intact_strength_constant", 1.4},
-      {"intact_strength_exponent", 0.8918}, {"strain_rate_constant", 0.05}, {"fractured_strength_constant", 0.09},
-      {"fractured_strength_exponent", 1.2}, {"maximum_tensile_pressure", 1e6}, {"damage_constant", 0.05},
-      {"damage_exponent", 0.5}, {"bulking_fraction", 1}});
+  const auto brittle = johnson_holmquist_2_from_card("ice", {{"density", 900},
+                                                             {"shear_modulus", 4.4444e9},
+                                                             {"bulk_modulus", 8.1254e9},
+                                                             {"hugoniot_elastic_limit", 5.2e9},
+                                                             {"pressure_at_hugoniot_elastic_limit", 3.4381e9},
+                                                             {"intact_strength_constant", 1.4},
+                                                             {"intact_strength_exponent", 0.8918},
+                                                             {"strain_rate_constant", 0.05},
+                                                             {"fractured_strength_constant", 0.09},
+                                                             {"fractured_strength_exponent", 1.2},
+                                                             {"maximum_tensile_pressure", 1e6},
+                                                             {"damage_constant", 0.05},
+                                                             {"damage_exponent", 0.5},
+                                                             {"bulking_fraction", 1}});
   for (const Law& law : {Law(elastic), Law(brittle)}) {
     auto solid = make_solid("block", distorted(), law);
     tests::Random random;
@@ -77,8 +85,8 @@ TEST(Energy, InternalEnergyIsTheElasticEnergyOfTheStress) {
       double deviator = 0;
       for (int c = 0; c < 3; ++c) deviator += std::pow(s[c][e] - mean, 2);
       for (int c = 3; c < 6; ++c) deviator += 2 * s[c][e] * s[c][e];
-      stored += solid.element.volume[e] *
-                (mean * mean / (2 * elastic.bulk_modulus) + deviator / (4 * elastic.shear_modulus));
+      stored +=
+          solid.element.volume[e] * (mean * mean / (2 * elastic.bulk_modulus) + deviator / (4 * elastic.shear_modulus));
     }
     const auto account = energies(solid);
     largest = std::max(largest, stored);

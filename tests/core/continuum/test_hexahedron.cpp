@@ -17,14 +17,18 @@ const Numerics bare{0, 0, 0.05, 0.05, 0.01};  // no bulk viscosity
 
 ExplicitSolid distorted_block(Numerics numerics = {}, Law law = ice_like) {
   tests::Random random;
-  return make_solid("block", tests::block({4, 3, 5}, {4e-3, 3e-3, 5e-3}, [&](double* x) {
-    for (int i = 0; i < 3; ++i) x[i] += 2e-4 * random.symmetric();
-  }), law, numerics);
+  return make_solid("block",
+                    tests::block({4, 3, 5}, {4e-3, 3e-3, 5e-3},
+                                 [&](double* x) {
+                                   for (int i = 0; i < 3; ++i) x[i] += 2e-4 * random.symmetric();
+                                 }),
+                    law, numerics);
 }
 
 /// Volume of a trilinear hexahedron by 2 x 2 x 2 Gauss points, which is exact.
 double volume_by_gauss(const NodalVectors<double>& x) {
-  const int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+  const int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                          {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
   double volume = 0;
   for (const auto& point : sign) {
     double j[3][3] = {};
@@ -43,7 +47,8 @@ double volume_by_gauss(const NodalVectors<double>& x) {
 
 TEST(IceHexahedron, VolumeIsExactForDistortedShapes) {
   tests::Random random;
-  const NodalVectors<double> cube{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+  const NodalVectors<double> cube{
+      {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
   for (int trial = 0; trial < 20; ++trial) {
     auto x = cube;
     for (auto& node : x)
@@ -148,12 +153,21 @@ TEST(IceHexahedron, InnerForcesGiveNoNetForceAndNoTorque) {
 }
 
 TEST(IceHexahedron, PackedKernelEqualsThePlainOne) {
-  const JohnsonHolmquist2 brittle = johnson_holmquist_2_from_card("test", {
-      {"density", 900}, {"shear_modulus", 4.4444e9}, {"bulk_modulus", 8.1254e9}, {"hugoniot_elastic_limit", 5.2e9},
-      {"pressure_at_hugoniot_elastic_limit", 3.4381e9}, {"intact_strength_constant", 1.4},
-      {"intact_strength_exponent", 0.8918}, {"strain_rate_constant", 0.05}, {"fractured_strength_constant", 0.09},
-      {"fractured_strength_exponent", 1.2}, {"maximum_tensile_pressure", 1e6}, {"damage_constant", 0.05},
-      {"damage_exponent", 0.5}, {"bulking_fraction", 1}});
+  const JohnsonHolmquist2 brittle =
+      johnson_holmquist_2_from_card("test", {{"density", 900},
+                                             {"shear_modulus", 4.4444e9},
+                                             {"bulk_modulus", 8.1254e9},
+                                             {"hugoniot_elastic_limit", 5.2e9},
+                                             {"pressure_at_hugoniot_elastic_limit", 3.4381e9},
+                                             {"intact_strength_constant", 1.4},
+                                             {"intact_strength_exponent", 0.8918},
+                                             {"strain_rate_constant", 0.05},
+                                             {"fractured_strength_constant", 0.09},
+                                             {"fractured_strength_exponent", 1.2},
+                                             {"maximum_tensile_pressure", 1e6},
+                                             {"damage_constant", 0.05},
+                                             {"damage_exponent", 0.5},
+                                             {"bulking_fraction", 1}});
   for (const Law& law : {Law(ice_like), Law(brittle)}) {
     auto packed = distorted_block({}, law);
     tests::Random random;

@@ -8,12 +8,19 @@
 namespace polynya::continuum {
 namespace {
 
-const std::map<std::string, double> card{
-    {"density", 900}, {"shear_modulus", 4.4444e9}, {"bulk_modulus", 8.1254e9}, {"hugoniot_elastic_limit", 5.2e9},
-    {"pressure_at_hugoniot_elastic_limit", 3.4381e9}, {"intact_strength_constant", 1.4},
-    {"intact_strength_exponent", 0.8918}, {"strain_rate_constant", 0.05}, {"fractured_strength_constant", 0.09},
-    {"fractured_strength_exponent", 1.2}, {"maximum_tensile_pressure", 1e6}, {"damage_constant", 0.05},
-    {"damage_exponent", 0.5}};
+const std::map<std::string, double> card{{"density", 900},
+                                         {"shear_modulus", 4.4444e9},
+                                         {"bulk_modulus", 8.1254e9},
+                                         {"hugoniot_elastic_limit", 5.2e9},
+                                         {"pressure_at_hugoniot_elastic_limit", 3.4381e9},
+                                         {"intact_strength_constant", 1.4},
+                                         {"intact_strength_exponent", 0.8918},
+                                         {"strain_rate_constant", 0.05},
+                                         {"fractured_strength_constant", 0.09},
+                                         {"fractured_strength_exponent", 1.2},
+                                         {"maximum_tensile_pressure", 1e6},
+                                         {"damage_constant", 0.05},
+                                         {"damage_exponent", 0.5}};
 
 /// One brick whose nodes move by amplitude along x in the mode (y z): its bending mode.
 ExplicitSolid bent(const Law& law, double damage, double amplitude, double velocity) {

@@ -10,12 +10,20 @@ namespace {
 
 /// Table 1 of Diao, Fang & Cao 2025 completed, with the tensile limit T and the rate constant C free.
 JohnsonHolmquist2 ice(double tensile, double rate_constant, double bulking = 0) {
-  return johnson_holmquist_2_from_card("ice", {
-      {"density", 900}, {"shear_modulus", 4.4444e9}, {"bulk_modulus", 8.1254e9}, {"hugoniot_elastic_limit", 5.2e9},
-      {"pressure_at_hugoniot_elastic_limit", 3.4381e9}, {"intact_strength_constant", 1.4},
-      {"intact_strength_exponent", 0.8918}, {"strain_rate_constant", rate_constant}, {"fractured_strength_constant", 0.09},
-      {"fractured_strength_exponent", 1.2}, {"maximum_tensile_pressure", tensile}, {"damage_constant", 0.05},
-      {"damage_exponent", 0.5}, {"bulking_fraction", bulking}});
+  return johnson_holmquist_2_from_card("ice", {{"density", 900},
+                                               {"shear_modulus", 4.4444e9},
+                                               {"bulk_modulus", 8.1254e9},
+                                               {"hugoniot_elastic_limit", 5.2e9},
+                                               {"pressure_at_hugoniot_elastic_limit", 3.4381e9},
+                                               {"intact_strength_constant", 1.4},
+                                               {"intact_strength_exponent", 0.8918},
+                                               {"strain_rate_constant", rate_constant},
+                                               {"fractured_strength_constant", 0.09},
+                                               {"fractured_strength_exponent", 1.2},
+                                               {"maximum_tensile_pressure", tensile},
+                                               {"damage_constant", 0.05},
+                                               {"damage_exponent", 0.5},
+                                               {"bulking_fraction", bulking}});
 }
 
 TEST(JohnsonHolmquist2, StrengthFollowsThePublishedFormula) {
@@ -32,7 +40,8 @@ TEST(JohnsonHolmquist2, StrengthFollowsThePublishedFormula) {
 
 TEST(JohnsonHolmquist2, UnconfinedStrengthsAreThoseTheTableImplies) {
   // Solved independently from the printed constants for several tensile limits, MPa.
-  const double rows[][3] = {{0.5, 0.75, 5.6}, {0.99, 1.43, 8.8}, {1.0, 1.445, 8.83}, {2.0, 2.77, 14.3}, {3.0, 4.06, 19.1}};
+  const double rows[][3] = {
+      {0.5, 0.75, 5.6}, {0.99, 1.43, 8.8}, {1.0, 1.445, 8.83}, {2.0, 2.77, 14.3}, {3.0, 4.06, 19.1}};
   for (const auto& [tensile, tension, compression] : rows) {
     EXPECT_NEAR(uniaxial_tensile_strength(ice(tensile * 1e6, 0.2287), 1) / 1e6, tension, 0.006);
     EXPECT_NEAR(unconfined_compressive_strength(ice(tensile * 1e6, 0.2287), 1) / 1e6, compression, 0.06);
@@ -79,7 +88,8 @@ TEST(JohnsonHolmquist2, PackedPointsEqualPlainOnes) {
   const auto law = ice(1e6, 0.05, 1);
   PointState<Pack> packed;
   Tensor<Pack> gradient{};
-  for (int c = 0; c < 9; ++c) gradient[c] = Pack([&](auto lane) { return 30.0 * std::sin(3.0 * c + lane) - (c % 4 ? 0 : 40); });
+  for (int c = 0; c < 9; ++c)
+    gradient[c] = Pack([&](auto lane) { return 30.0 * std::sin(3.0 * c + lane) - (c % 4 ? 0 : 40); });
   for (int step = 0; step < 500; ++step) update_stress(law, packed, gradient, Pack(1e-7));
   for (std::size_t lane = 0; lane < Pack::size(); ++lane) {
     PointState<double> plain;

@@ -17,15 +17,15 @@
 namespace polynya::continuum {
 namespace {
 
-constexpr double density_0 = 3700, g = 90.16e9, k1 = 130.95e9, hel = 2.79e9, p_hel = 1.46e9, a = 0.93, n = 0.6,
-                 m = 0.6, tensile = 0.2e9, d2 = 1, sigma_hel = 1.5 * (hel - p_hel);
+constexpr double density_0 = 3700, g = 90.16e9, k1 = 130.95e9, hel = 2.79e9, p_hel = 1.46e9, a = 0.93, n = 0.6, m = 0.6,
+                 tensile = 0.2e9, d2 = 1, sigma_hel = 1.5 * (hel - p_hel);
 
 struct Path {
-  double b, d1;             // fractured strength constant, damage constant
-  double rate;              // of the length: l' = rate
-  double length, start;     // length at time `start`
+  double b, d1;          // fractured strength constant, damage constant
+  double rate;           // of the length: l' = rate
+  double length, start;  // length at time `start`
   bool plastic, broken;
-  double sign;              // of the axial deviator while yielding
+  double sign;  // of the axial deviator while yielding
 };
 
 struct Point {
@@ -73,10 +73,10 @@ int events(sunrealtype t, N_Vector state, sunrealtype* value, void* data) {
   const Path& path = *static_cast<Path*>(data);
   const double* y = NV_DATA_S(state);
   const Point q = evaluate(path, t, y);
-  const double stress = 1.5 * (path.rate > 0 ? y[0] : -y[0]);  // what the motion drives up
+  const double stress = 1.5 * (path.rate > 0 ? y[0] : -y[0]);       // what the motion drives up
   value[0] = path.plastic ? 1 : (q.strength - stress) / sigma_hel;  // yield
-  value[1] = path.broken ? 1 : 1 - y[1];                                          // full damage
-  value[2] = path.rate > 0 ? (q.p - y[0]) / p_hel : 1;                            // released: no axial stress
+  value[1] = path.broken ? 1 : 1 - y[1];                            // full damage
+  value[2] = path.rate > 0 ? (q.p - y[0]) / p_hel : 1;              // released: no axial stress
   return 0;
 }
 
@@ -152,12 +152,21 @@ std::vector<Sample> reference(double b, double d1, double sample_time, double en
 }
 
 JohnsonHolmquist2 alumina(double b, double d1) {
-  return johnson_holmquist_2_from_card("alumina", {
-      {"density", density_0}, {"shear_modulus", g}, {"bulk_modulus", k1}, {"hugoniot_elastic_limit", hel},
-      {"pressure_at_hugoniot_elastic_limit", p_hel}, {"intact_strength_constant", a}, {"intact_strength_exponent", n},
-      {"strain_rate_constant", 0}, {"fractured_strength_constant", b}, {"fractured_strength_exponent", m},
-      {"maximum_tensile_pressure", tensile}, {"damage_constant", d1}, {"damage_exponent", d2}, {"bulking_fraction", 1},
-      {"maximum_fractured_strength", 0.2}});
+  return johnson_holmquist_2_from_card("alumina", {{"density", density_0},
+                                                   {"shear_modulus", g},
+                                                   {"bulk_modulus", k1},
+                                                   {"hugoniot_elastic_limit", hel},
+                                                   {"pressure_at_hugoniot_elastic_limit", p_hel},
+                                                   {"intact_strength_constant", a},
+                                                   {"intact_strength_exponent", n},
+                                                   {"strain_rate_constant", 0},
+                                                   {"fractured_strength_constant", b},
+                                                   {"fractured_strength_exponent", m},
+                                                   {"maximum_tensile_pressure", tensile},
+                                                   {"damage_constant", d1},
+                                                   {"damage_exponent", d2},
+                                                   {"bulking_fraction", 1},
+                                                   {"maximum_fractured_strength", 0.2}});
 }
 
 /// One step of uniaxial strain that changes the length by `change` in one second.
@@ -203,11 +212,15 @@ void expect_agreement(double b, double d1, double end, double least_damage) {
   }
 }
 
-TEST(JohnsonHolmquist2RateEquations, CaseCAgreesWithCvodeThroughLoadingAndRelease) { expect_agreement(0.31, 0.005, 2, 1); }
+TEST(JohnsonHolmquist2RateEquations, CaseCAgreesWithCvodeThroughLoadingAndRelease) {
+  expect_agreement(0.31, 0.005, 2, 1);
+}
 
 // Without fractured strength and with D1 = 0.005 the rate equations lose their solution at t = 0.238, D = 0.37: from
 // there the strength falls faster than the elastic stress. The law then fractures within a few steps.
-TEST(JohnsonHolmquist2RateEquations, CaseBAgreesWithCvodeWhileItHasASolution) { expect_agreement(0, 0.005, 0.235, 0.05); }
+TEST(JohnsonHolmquist2RateEquations, CaseBAgreesWithCvodeWhileItHasASolution) {
+  expect_agreement(0, 0.005, 0.235, 0.05);
+}
 
 TEST(JohnsonHolmquist2RateEquations, CaseBFracturesWhereItsSolutionEnds) {
   const auto law = alumina(0, 0.005);
@@ -220,7 +233,9 @@ TEST(JohnsonHolmquist2RateEquations, CaseBFracturesWhereItsSolutionEnds) {
   EXPECT_NEAR(state.stress[0], state.stress[1], 1);  // no strength left
 }
 
-TEST(JohnsonHolmquist2RateEquations, CaseBWithTwiceTheDuctilityAgreesWithCvode) { expect_agreement(0, 0.01, 2, 1); }
+TEST(JohnsonHolmquist2RateEquations, CaseBWithTwiceTheDuctilityAgreesWithCvode) {
+  expect_agreement(0, 0.01, 2, 1);
+}
 
 TEST(JohnsonHolmquist2RateEquations, ElasticUnloadingLeavesTheBulkingPressureAlone) {
   const auto law = alumina(0.31, 0.005);

@@ -13,7 +13,8 @@ double enclosed_volume(const HexMesh& mesh, const BoundarySurface& surface) {
     const double* p[3];
     for (std::size_t k = 0; k < 3; ++k) p[k] = &mesh.nodes[3 * surface.nodes[surface.triangles[3 * t + k]]];
     volume += (p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) + p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
-               p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0])) / 6;
+               p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0])) /
+              6;
   }
   return volume;
 }

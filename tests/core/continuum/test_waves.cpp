@@ -54,8 +54,8 @@ TEST(Waves, PlaneWaveTravelsAtTheLongitudinalSpeedAndConverges) {
 }
 
 TEST(Waves, SlenderRodCarriesWavesAtTheRodSpeed) {
-  const double young = 9 * material.bulk_modulus * material.shear_modulus /
-                       (3 * material.bulk_modulus + material.shear_modulus);
+  const double young =
+      9 * material.bulk_modulus * material.shear_modulus / (3 * material.bulk_modulus + material.shear_modulus);
   const double speed = std::sqrt(young / material.density);
   const double exact = 0.5 * length / speed;
   EXPECT_NEAR(arrival(bar(200, false), speed) / exact, 1, 0.01);
@@ -75,8 +75,9 @@ double reflected(int component) {
   const double dt = 0.8 * stable_step(solid);
   advance_velocities(solid, none, 0, dt);
   const double start = energies(solid).kinetic;
-  const double speed = component == 0 ? std::sqrt((material.bulk_modulus + 4.0 / 3.0 * material.shear_modulus) / material.density)
-                                      : std::sqrt(material.shear_modulus / material.density);
+  const double speed = component == 0
+                           ? std::sqrt((material.bulk_modulus + 4.0 / 3.0 * material.shear_modulus) / material.density)
+                           : std::sqrt(material.shear_modulus / material.density);
   while (solid.time < 0.95 * length / speed) {
     advance_positions(solid, dt);
     internal_forces(solid, dt);
@@ -88,8 +89,12 @@ double reflected(int component) {
   return (account.kinetic + account.internal) / start;
 }
 
-TEST(NonReflectingBoundary, LetsALongitudinalPulseLeave) { EXPECT_LT(reflected(0), 0.01); }
-TEST(NonReflectingBoundary, LetsAShearPulseLeave) { EXPECT_LT(reflected(1), 0.01); }
+TEST(NonReflectingBoundary, LetsALongitudinalPulseLeave) {
+  EXPECT_LT(reflected(0), 0.01);
+}
+TEST(NonReflectingBoundary, LetsAShearPulseLeave) {
+  EXPECT_LT(reflected(1), 0.01);
+}
 
 TEST(NonReflectingBoundary, HoldsAPrestressedColumnInPlace) {
   const int n = 10;
