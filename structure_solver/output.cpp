@@ -5,7 +5,7 @@
 namespace polynya::structure {
 namespace {
 
-constexpr double most_rows = 20000;
+constexpr double most_rows = 10000;
 
 std::vector<results::Column> columns() {
   std::vector<results::Column> all{{"time", "s"}, {"step", "s"}};

@@ -14,7 +14,7 @@ namespace polynya::structure {
 /// RUN/logs/NAME.json; and the figures of its summary.
 class Output {
  public:
-  /// The series gets at most about 20,000 rows over `duration` (s).
+  /// The series gets at most about 10,000 rows over `duration` (s).
   Output(std::string run_folder, std::string name, double duration, const BuiltVehicle& vehicle);
 
   /// Books one finished window; writes a row of the series when one is due.

@@ -16,7 +16,7 @@ int choose_layers(const Meridian& outline, const VehicleMeshOptions& options) {
   const double relative_size = options.element_size / (2 * outline.radius());
   if (options.wall_thickness > 0) {
     // A thin wall sets the stable step, so a second layer is spent only where the rest of the mesh is fine as well.
-    return relative_size >= 0.15 ? 1 : relative_size >= 0.05 ? 2 : 3;
+    return relative_size >= 0.099 ? 1 : relative_size >= 0.049 ? 2 : 3;
   }
   return std::max(1, static_cast<int>(std::lround(0.4 / (2 * relative_size))));
 }
