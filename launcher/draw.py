@@ -9,7 +9,7 @@ import numpy
 from launcher import draw_curves, draw_fields, draw_series, fields, sections, style
 from launcher.run_folder import read_json
 from launcher.scene import participants
-from launcher.series import read_series
+from launcher.series import Series, read_series
 from launcher.summary import progress
 
 SHEET = 6  # moments on a sheet
@@ -47,16 +47,16 @@ def jobs(run: Path, scene: dict, summary: dict, folder: Path) -> Iterator[tuple[
     if tube:
         yield "tube", lambda: draw_series.draw_profiles(scene, tube, folder / "tube.png")
     elif (run / "fields").is_dir():
-        yield "cuts", lambda: draw_cuts(run, scene, summary, folder)
+        yield "cuts", lambda: draw_cuts(run, scene, events(summary, series), folder)
 
 
-def draw_cuts(run: Path, scene: dict, summary: dict, folder: Path) -> list[Path]:
+def draw_cuts(run: Path, scene: dict, wishes: list[float], folder: Path) -> list[Path]:
     """The sheet of materials, the sheet of pressure, and the last moment large."""
     times = frame_times(run)
     if not len(times):
         return []
     tolerance = 0.51 * float(numpy.median(numpy.diff(times))) if len(times) > 1 else numpy.inf
-    shown = [sections.load_section(run, time, tolerance) for time in choose(times, summary)]
+    shown = [sections.load_section(run, time, tolerance) for time in choose(times, wishes)]
     view = sections.make_view(scene, shown)
     pictures = [draw_fields.draw_sheet(shown, view, folder / "cuts.png", "materials")]
     if view.pressure:
@@ -73,14 +73,20 @@ def frame_times(run: Path) -> numpy.ndarray:
     return numpy.array(max(by_part, key=len))
 
 
-def choose(times: numpy.ndarray, summary: dict) -> list[float]:
-    """Moments to show: first and last frame, contact, halfway through, shoulder clear; the rest evenly."""
+def events(summary: dict, series: Series | None) -> list[float]:
+    """Times worth seeing: contact, halfway through and shoulder clear; or how a beam breaks."""
     contact, clear = summary.get("first_contact_time"), summary.get("shoulder_clear_time")
-    wishes = [times[0], times[-1]]
     if contact is not None:
-        wishes += [contact]
-        wishes += [contact + clear, contact + clear / 2] if clear is not None else []
-    chosen = {int(numpy.argmin(abs(times - wish))) for wish in wishes}
+        return [contact] + ([contact + clear, contact + clear / 2] if clear is not None else [])
+    if series and series.has("most_damage"):
+        grown = [numpy.flatnonzero(series["most_damage"] >= share) for share in (0.02, 0.5, 0.98)]
+        return [float(series["time"][rows[0]]) for rows in grown if len(rows)]
+    return []
+
+
+def choose(times: numpy.ndarray, wishes: list[float]) -> list[float]:
+    """Moments to show: the first and the last frame, those nearest to the wishes, and others evenly between."""
+    chosen = {int(numpy.argmin(abs(times - wish))) for wish in (times[0], times[-1], *wishes)}
     while len(chosen) < min(SHEET, len(times)):
         # The frame farthest from all that were chosen.
         gaps = [min(abs(times[i] - times[j]) for j in chosen) for i in range(len(times))]

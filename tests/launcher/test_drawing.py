@@ -77,13 +77,14 @@ class Drawing(unittest.TestCase):
 class Moments(unittest.TestCase):
     def test_contact_and_shoulder_are_among_the_moments_shown(self):
         times = numpy.linspace(0, 1e-3, 31)
-        chosen = draw.choose(times, {"first_contact_time": 1e-4, "shoulder_clear_time": 5e-4})
+        wishes = draw.events({"first_contact_time": 1e-4, "shoulder_clear_time": 5e-4}, None)
+        chosen = draw.choose(times, wishes)
         self.assertEqual(len(chosen), draw.SHEET)
         for wish in (0.0, 1e-4, 3.5e-4, 6e-4, 1e-3):
             self.assertLess(min(abs(numpy.array(chosen) - wish)), 2e-5)
 
     def test_few_frames_are_all_shown(self):
-        self.assertEqual(draw.choose(numpy.array([0.0, 1.0]), {}), [0.0, 1.0])
+        self.assertEqual(draw.choose(numpy.array([0.0, 1.0]), []), [0.0, 1.0])
 
 
 class Colours(unittest.TestCase):
