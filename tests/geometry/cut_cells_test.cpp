@@ -1,6 +1,7 @@
 #include "geometry/cut_cells.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include "closure.hpp"
 #include "shapes.hpp"
@@ -295,6 +296,30 @@ TEST(CutCells, ResultsDoNotDependOnEarlierCuts) {
   EXPECT_EQ(reused.wall_area, once.wall_area);
   EXPECT_EQ(reused.faces[0].solid, once.faces[0].solid);
   EXPECT_EQ(reused.pieces.size(), once.pieces.size());
+}
+
+TEST(CutCells, ResultsDoNotDependOnTheNumberOfThreads) {
+  const GridLines grid = shapes::cube_grid(1.2, 24);
+  std::mt19937 random(13);
+  Shape body = shapes::sphere(4);  // several chunks of triangles and columns
+  shapes::rotate_randomly(body, random);
+  for (std::size_t v = 0; v < body.velocities.size(); ++v) body.velocities[v] = std::sin(static_cast<double>(v));
+  const int usual = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const CutCells one = cut_once(grid, {body});
+  omp_set_num_threads(3);
+  const CutCells three = cut_once(grid, {body});
+  omp_set_num_threads(usual);
+  EXPECT_EQ(one.cell, three.cell);
+  EXPECT_EQ(one.solid_volume, three.solid_volume);
+  EXPECT_EQ(one.wall_area, three.wall_area);
+  EXPECT_EQ(one.wall_velocity, three.wall_velocity);
+  for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_EQ(one.faces[axis].solid, three.faces[axis].solid);
+  ASSERT_EQ(one.pieces.size(), three.pieces.size());
+  for (std::size_t p = 0; p < one.pieces.size(); ++p) {
+    EXPECT_EQ(one.pieces[p].triangle, three.pieces[p].triangle);
+    EXPECT_EQ(one.pieces[p].area, three.pieces[p].area);
+  }
 }
 
 TEST(CutCells, BadSurfacesAreRefusedByName) {
