@@ -112,8 +112,8 @@ void finish_filling(Fluid& fluid);
 void fill_hydrostatic(Fluid& fluid, const Overlap& overlap, double waterline, std::array<double, 3> velocity = {});
 
 /// Starts the fluid as the potential flow around the moving walls (see potential_flow.cpp) and sets the pressure that
-/// belongs to it. Call after fill_hydrostatic.
-void start_potential_flow(Fluid& fluid);
+/// belongs to it. Call after fill_hydrostatic. Returns the iterations of the projection.
+int start_potential_flow(Fluid& fluid);
 
 /// Advances by dt to the time at which the solids are as `overlap` says. Throws FluidError at a state without meaning.
 void step(Fluid& fluid, double dt, const Overlap& overlap);

@@ -9,7 +9,7 @@ namespace polynya::fluid {
 namespace {
 
 constexpr double prediction = 0.6;          ///< theta
-constexpr double within = 0.5;              ///< zeta: brings wall motion to the nodes inside a group
+constexpr double within = 0.5;                       ///< zeta: brings wall motion to the nodes inside a group
 constexpr double linear_viscosity = 0.06, quadratic_viscosity = 1.5;
 
 struct Range {

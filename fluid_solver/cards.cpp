@@ -1,0 +1,78 @@
+#include "fluid_solver/cards.hpp"
+
+#include "core/scene/graded_line.hpp"
+
+namespace polynya::fluid {
+namespace {
+
+Grid grid_of(const scene::Scene& scene) {
+  scene::GridLines lines = scene::fluid_grid_lines(scene);
+  return {std::move(lines.x), std::move(lines.y), std::move(lines.z)};
+}
+
+}  // namespace
+
+EquationOfState law_of(const scene::MaterialCard& card) {
+  if (card.law == "mie_grueneisen") {
+    return MieGrueneisen{card.value("density"), card.value("sound_speed"), card.value("slope_1"),
+                         card.value("slope_2"), card.value("slope_3"),     card.value("grueneisen"),
+                         card.value("grueneisen_slope")};
+  }
+  if (card.law == "linear_polynomial") {
+    return LinearPolynomial{card.value("density"), card.value("c0"), card.value("c1"), card.value("c2"),
+                            card.value("c3"),      card.value("c4"), card.value("c5"), card.value("c6")};
+  }
+  if (card.law == "ideal_gas") return IdealGas{card.value("ratio_of_specific_heats")};
+  if (card.law == "stiffened_gas") return StiffenedGas{card.value("ratio_of_specific_heats"), card.value("stiffening_pressure")};
+  throw std::runtime_error("material " + card.name + ": the law " + card.law + " is not a fluid's; expected mie_grueneisen, "
+                           "linear_polynomial, ideal_gas or stiffened_gas");
+}
+
+Fluid make_fluid(const scene::Scene& scene) {
+  const scene::Fluid& description = *scene.fluid;
+  Setup setup;
+  setup.law = {law_of(scene.material(description.water)), law_of(scene.material(description.air))};
+  const bool cavitates = scene.effect("cavitation");
+  setup.pressure_floor = {cavitates ? description.vapour_pressure : -1e300, 0.0};
+  setup.gravity = scene.effect("hydrostatics") ? scene.run.gravity : 0.0;
+  setup.atmospheric_pressure = description.atmospheric_pressure;
+  setup.boundary.fill(description.outer_boundary == "non_reflecting" ? Boundary::non_reflecting : Boundary::wall);
+  if (scene.symmetry == scene::Symmetry::quarter) setup.boundary[0] = Boundary::wall;
+  if (scene.symmetry != scene::Symmetry::full) setup.boundary[2] = Boundary::wall;
+  return {grid_of(scene), setup};
+}
+
+Fluid make_tube(const scene::Scene& scene) {
+  const scene::Tube& tube = *scene.fluid->tube;
+  Setup setup;
+  setup.law = {law_of(scene.material(tube.left.material)), law_of(scene.material(tube.right.material))};
+  setup.boundary.fill(Boundary::wall);
+  setup.atmospheric_pressure = 0;
+  for (int m = 0; m < 2; ++m) {
+    const bool gas = std::holds_alternative<IdealGas>(setup.law[m]) || std::holds_alternative<LinearPolynomial>(setup.law[m]);
+    setup.pressure_floor[m] = gas ? 0.0 : -1e300;
+  }
+  Fluid fluid(grid_of(scene), setup);
+  const Grid& grid = fluid.grid;
+  fill(fluid, {}, [&](int i, int, int) {
+    const bool left = grid.centre_x(i) < tube.diaphragm;
+    const int m = left ? 0 : 1;
+    const scene::TubeState& side = left ? tube.left : tube.right;
+    CellState state;
+    state.fraction[m] = 1;
+    state.density[m] = side.density;
+    state.specific_energy[m] = energy_at(setup.law[m], side.density, side.pressure);
+    return state;
+  });
+  for_rows(grid, 1, [&](int j, int k) {
+    for (int i = 1; i <= grid.nx + 1; ++i) {
+      const double x = grid.x[i - 1];
+      const bool end = i == 1 || i == grid.nx + 1;
+      fluid.velocity[0][grid.at(i, j, k)] = end ? 0.0 : x < tube.diaphragm ? tube.left.velocity : tube.right.velocity;
+    }
+  });
+  update_account(fluid);
+  return fluid;
+}
+
+}  // namespace polynya::fluid

@@ -1,0 +1,116 @@
+#include "fluid_solver/conversation.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "core/exchange/errors.hpp"
+
+namespace polynya::fluid {
+namespace {
+
+std::int64_t rows(std::size_t count) { return static_cast<std::int64_t>(count); }
+
+template <class T>
+std::vector<T> copy(const exchange::Message& message, const std::string& name, std::size_t expected) {
+  const auto view = message.view<T>(name);
+  if (view.size() != expected) {
+    throw exchange::ProtocolError("message '" + message.kind() + "': array '" + name + "' holds " + std::to_string(view.size()) +
+                                  " values, expected " + std::to_string(expected));
+  }
+  return {view.begin(), view.end()};
+}
+
+exchange::Message make_ready(const Fluid& fluid) {
+  exchange::Message ready("ready");
+  ready.header["role"] = "fluid";
+  ready.header["stable_step"] = stable_step(fluid);
+  ready.header["account"] = account_names();
+  const auto values = account_values(fluid.account);
+  ready.add<double>("account", {rows(values.size())}, values);
+  ready.add<double>("grid.x", {rows(fluid.grid.x.size())}, fluid.grid.x);
+  ready.add<double>("grid.y", {rows(fluid.grid.y.size())}, fluid.grid.y);
+  ready.add<double>("grid.z", {rows(fluid.grid.z.size())}, fluid.grid.z);
+  return ready;
+}
+
+void add_pressure(exchange::Message& message, const Fluid& fluid, const Overlap& overlap, const std::string& prefix) {
+  std::vector<double> value, gradient;
+  overlap_pressure(fluid, overlap, value, gradient);
+  message.add<double>(prefix + "values", {rows(value.size())}, value);
+  message.add<double>(prefix + "gradient_z", {rows(gradient.size())}, gradient);
+}
+
+exchange::Message make_pressure(const Fluid& fluid, const Overlap& overlap) {
+  exchange::Message message("pressure");
+  message.header["stable_step"] = stable_step(fluid);
+  add_pressure(message, fluid, overlap, "pressure.");
+  const auto values = account_values(fluid.account);
+  message.add<double>("account", {rows(values.size())}, values);
+  return message;
+}
+
+void start(const scene::Scene& scene, Fluid& fluid, const Overlap& overlap) {
+  fill_hydrostatic(fluid, overlap, scene.fluid->waterline);
+  if (scene.fluid->start == "potential_flow") {
+    const int iterations = start_potential_flow(fluid);
+    spdlog::info("potential flow: {} iterations, kinetic energy {:.6g} J", iterations, fluid.account.kinetic);
+  }
+  spdlog::info("start: water {:.9g} kg, air {:.9g} kg, stable step {:.3e} s, {} groups of cut cells", fluid.account.mass[water],
+               fluid.account.mass[air], stable_step(fluid), fluid.groups.count());
+}
+
+double positive_span(const exchange::Message& message, double time) {
+  const double span = message.header.value("time1", 0.0) - time;
+  if (!(span > 0)) throw exchange::ProtocolError("message 'span': header 'time1' must be later than the fluid's time");
+  return span;
+}
+
+}  // namespace
+
+Overlap read_overlap(const exchange::Message& message) {
+  Overlap overlap;
+  const auto cells = message.view<std::int64_t>("cell");
+  overlap.cell.assign(cells.begin(), cells.end());
+  const std::size_t m = cells.size();
+  overlap.solid_volume = copy<double>(message, "solid_volume", m);
+  overlap.debris_volume = copy<double>(message, "debris_volume", m);
+  overlap.wall_area = copy<double>(message, "wall_area", 6 * m);
+  overlap.wall_velocity = copy<double>(message, "wall_velocity", 6 * m);
+  constexpr std::array<const char*, 3> names{"face_x", "face_y", "face_z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto faces = message.view<std::int64_t>(names[axis]);
+    overlap.face[axis].assign(faces.begin(), faces.end());
+    overlap.face_solid[axis] = copy<double>(message, std::string(names[axis]) + ".solid", faces.size());
+  }
+  return overlap;
+}
+
+void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant& coupler, Output& output) {
+  fill_hydrostatic(fluid, {}, scene.fluid->waterline);
+  coupler.send(make_ready(fluid));
+  Overlap overlap = read_overlap(coupler.receive("begin"));
+  start(scene, fluid, overlap);
+  output.start(fluid);
+  coupler.send(make_pressure(fluid, overlap));
+  output.write_frame(fluid, 0);
+  for (;;) {
+    const exchange::Message span = coupler.receive("span");
+    Overlap next = read_overlap(span);
+    const double dt = positive_span(span, fluid.time);
+    step(fluid, dt, next);
+    exchange::Message answer = make_pressure(fluid, next);
+    answer.header["span"] = span.header.value("span", 0L);
+    add_pressure(answer, fluid, overlap, "pressure.previous_");
+    coupler.send(std::move(answer));
+    overlap = std::move(next);
+    output.record(fluid, dt);
+    if (const int frame = span.header.value("frame", -1); frame >= 0) output.write_frame(fluid, frame);
+    if (span.header.value("finish", false)) break;
+  }
+  exchange::Message finished("finished");
+  finished.header.update(output.summary(fluid));
+  coupler.send(finished);
+  coupler.receive("bye");
+  spdlog::info("finished: {}", output.summary(fluid).dump());
+}
+
+}  // namespace polynya::fluid

@@ -1,0 +1,15 @@
+#pragma once
+#include "core/exchange/participant.hpp"
+#include "core/scene/scene.hpp"
+#include "fluid_solver/fluid.hpp"
+#include "fluid_solver/output.hpp"
+
+namespace polynya::fluid {
+
+/// The overlap arrays of a `begin` or `span` message. Throws ProtocolError when one is missing or sizes disagree.
+Overlap read_overlap(const exchange::Message& message);
+
+/// Plays the fluid's part of docs/protocol.md, section 5, to the end.
+void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant& coupler, Output& output);
+
+}  // namespace polynya::fluid

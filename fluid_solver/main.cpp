@@ -1,0 +1,116 @@
+#include <omp.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <optional>
+
+#include "core/exchange/environment.hpp"
+#include "core/exchange/errors.hpp"
+#include "fluid_solver/cards.hpp"
+#include "fluid_solver/conversation.hpp"
+#include "fluid_solver/tube.hpp"
+
+namespace {
+
+using namespace polynya;
+
+struct Options {
+  std::string scene, out, endpoint, run, name = "fluid";
+  int threads = 0;
+};
+
+/// Reads the command line; a value means that the process ends with this exit code.
+std::optional<int> parse(int argc, char** argv, Options& options) {
+  CLI::App app{"Moves water and air around the solids that cut its grid. Without --connect: a shock tube."};
+  app.add_option("--scene", options.scene, "resolved scene (RUN/scene.json)")->required();
+  app.add_option("--out", options.out, "run folder")->required();
+  auto* connect = app.add_option("--connect", options.endpoint, "the coupler's endpoint");
+  app.add_option("--run", options.run, "identity of the run, the coupler's")->needs(connect);
+  app.add_option("--name", options.name, "name under which the coupler expects this process");
+  app.add_option("--threads", options.threads, "threads to use; 0: as many as OpenMP offers")->check(CLI::NonNegativeNumber);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (options.threads > 0) omp_set_num_threads(options.threads);
+  return {};
+}
+
+void start_log(const Options& options) {
+  auto logger = spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", true);
+  logger->flush_on(spdlog::level::info);
+  spdlog::set_default_logger(logger);
+}
+
+fluid::Fluid build(const Options& options, const scene::Scene& scene) {
+  if (!scene.fluid) throw std::runtime_error(options.scene + ": the scene has no fluid");
+  const bool tube = scene.fluid->tube.has_value();
+  if (tube != options.endpoint.empty()) {
+    throw std::runtime_error(options.scene + (tube ? ": a tube runs alone, without --connect"
+                                                   : ": water and air move around solids; give --connect, or a scene with [tube]"));
+  }
+  fluid::Fluid built = tube ? fluid::make_tube(scene) : fluid::make_fluid(scene);
+  spdlog::info("grid: {} x {} x {} = {} cells", built.grid.nx, built.grid.ny, built.grid.nz, built.grid.cells());
+  return built;
+}
+
+void run(const Options& options, const scene::Scene& scene, fluid::Fluid& built) {
+  fluid::Output output(options.out, options.name, scene.run.end_time, scene);
+  if (options.endpoint.empty()) {
+    try {
+      const double error = fluid::run_tube(scene, built, output);
+      if (error >= 0) spdlog::info("mean error of the density: {:.4f} of its mean", error);
+    } catch (...) {
+      output.close(built, 0);
+      throw;
+    }
+    output.close(built, 0);
+    spdlog::info("finished: {}", output.summary(built).dump());
+    return;
+  }
+  exchange::Participant coupler({options.endpoint, options.run, options.name});
+  const auto close = [&] { output.close(built, coupler.waiting_seconds()); };
+  try {
+    fluid::run_coupled(scene, built, coupler, output);
+    close();
+  } catch (const exchange::Stopped&) {
+    close();
+    throw;
+  } catch (const exchange::CouplerLost&) {
+    close();
+    throw;
+  } catch (const std::exception& error) {
+    coupler.fail(error.what());
+    close();
+    throw;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  exchange::die_with_parent();
+  Options options;
+  if (const auto code = parse(argc, argv, options)) return *code;
+  scene::Scene scene;
+  std::optional<fluid::Fluid> built;
+  try {
+    scene = scene::load_resolved_scene(options.scene);
+    start_log(options);
+    built.emplace(build(options, scene));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", options.name.c_str(), error.what());
+    return 2;
+  }
+  try {
+    run(options, scene, *built);
+    return 0;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    std::fprintf(stderr, "%s: %s\n", options.name.c_str(), error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,41 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/results/frame_series.hpp"
+#include "core/results/process_report.hpp"
+#include "core/results/time_series.hpp"
+#include "core/scene/scene.hpp"
+#include "fluid_solver/fluid.hpp"
+
+namespace polynya::fluid {
+
+/// What a run of the fluid solver leaves behind: RUN/fields/fluid_*.vtkhdf, RUN/series/fluid.csv, RUN/logs/NAME.json, and
+/// the figures of its summary.
+class Output {
+ public:
+  /// The series gets at most about 10,000 rows over `duration` (s).
+  Output(std::string run_folder, std::string name, double duration, const scene::Scene& scene);
+
+  /// Remembers the state that errors of mass and energy are counted from.
+  void start(const Fluid& fluid);
+  void record(const Fluid& fluid, double step);
+  void write_frame(const Fluid& fluid, int number);
+  void close(const Fluid& fluid, double waiting_seconds);
+  nlohmann::json summary(const Fluid& fluid) const;
+  const std::string& folder() const { return folder_; }
+
+ private:
+  void write_row(const Fluid& fluid);
+
+  std::string folder_, name_;
+  results::ProcessReport report_;
+  results::FrameSeries frames_;
+  results::TimeSeries series_;
+  double row_interval_, next_row_ = 0, step_ = 0, smallest_step_ = 1e300, frame_seconds_ = 0, last_row_ = -1;
+  double vehicle_volume_ = 0;
+  Account first_;
+  results::UnstructuredFields cells_;  ///< points and cells, the same in every frame
+};
+
+}  // namespace polynya::fluid

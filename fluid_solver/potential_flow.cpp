@@ -1,0 +1,251 @@
+// The start: a body that moves from the first instant would send out a pressure of rho c V. Instead the water starts with
+// the velocity an impulse would have given it, were it incompressible: u = u0 - grad(impulse) / rho in the discrete sense,
+// with the impulse chosen so that no group of water cells changes its volume while the walls move. The impulse is 0 in
+// air and outside non-reflecting boundaries. The pressure that belongs to this flow about a steadily moving body is
+// Bernoulli's, rho (U.u - u^2/2), added to what is there.
+#include <algorithm>
+#include <cmath>
+
+#include "fluid_solver/phases.hpp"
+
+namespace polynya::fluid {
+namespace {
+
+using Field = std::vector<double>;
+constexpr int most_iterations = 3000;
+constexpr double tolerance = 1e-6;  ///< of the norm of the initial rates of volume
+
+class Projection {
+ public:
+  explicit Projection(Fluid& fluid) : f_(fluid), unknown_(fluid.grid.size, 0.0), kick_(fluid.next_velocity) {
+    find_unknowns();
+    find_diagonal();
+  }
+
+  /// Conjugate gradients on cells and groups; returns the number of iterations.
+  int run() {
+    const std::size_t size = f_.grid.size;
+    Field residual(size, 0.0), impulse(size, 0.0), z(size, 0.0), direction(size, 0.0), image(size, 0.0);
+    initial_rates(residual);
+    precondition(residual, z);
+    direction = z;
+    double rho = dot(residual, z);
+    const double goal = tolerance * tolerance * dot(residual, residual);
+    int iteration = 0;
+    for (; iteration < most_iterations && rho > 0 && dot(residual, residual) > goal; ++iteration) {
+      apply(direction, image);
+      const double step = rho / dot(direction, image);
+      for (std::size_t c = 0; c < size; ++c) {
+        impulse[c] += step * direction[c];
+        residual[c] -= step * image[c];
+      }
+      precondition(residual, z);
+      const double next = dot(residual, z);
+      for (std::size_t c = 0; c < size; ++c) direction[c] = z[c] + next / rho * direction[c];
+      rho = next;
+    }
+    give_kick(impulse);
+    for (int d = 0; d < 3; ++d) {
+      for (std::size_t n = 0; n < size; ++n) f_.velocity[d][n] += kick_[d][n];
+    }
+    return iteration;
+  }
+
+ private:
+  /// 1 for cells of water (or in a group of water); groups carry their sum and their unknown in every member.
+  void find_unknowns() {
+    const Grid& grid = f_.grid;
+    for_rows(grid, 0, [&](int j, int k) {
+      for (std::ptrdiff_t c = grid.at(1, j, k), end = c + grid.nx; c < end; ++c) {
+        unknown_[c] = f_.density[c] > 0 && f_.material[air].volume[c] <= 1e-9 * f_.after.volume[c] ? 1.0 : 0.0;
+      }
+    });
+    for (std::size_t g = 0; g < f_.groups.count(); ++g) {
+      const GroupState& state = f_.group_states[g];
+      const bool wet = state.volume > 0 && state.content.volume[air] <= 1e-9 * state.volume;
+      for (std::size_t m = f_.groups.first[g]; m < f_.groups.first[g + 1]; ++m) {
+        // One member in full, the others as copies: sums over unknowns count a group once.
+        unknown_[f_.groups.members[m].cell] = wet && m == f_.groups.first[g] ? 1.0 : 0.0;
+      }
+    }
+  }
+
+  void find_diagonal() {
+    const Grid& grid = f_.grid;
+    diagonal_.assign(grid.size, 0.0);
+    const Field &b = f_.node_fraction, &m = f_.node_mass;
+    for_rows(grid, 0, [&](int j, int k) {
+      for (std::ptrdiff_t c = grid.at(1, j, k), end = c + grid.nx; c < end; ++c) {
+        double sum = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+          const std::ptrdiff_t n = c + (corner & 1) + (corner & 2 ? grid.sy : 0) + (corner & 4 ? grid.sz : 0);
+          if (!(m[n] > 0)) continue;
+          for (int axis = 0; axis < 3; ++axis) {
+            const double a = f_.face_coefficient[axis][corner >> axis & 1 ? c + grid.stride(axis) : c];
+            sum += b[n] * b[n] / m[n] * a * a;
+          }
+        }
+        diagonal_[c] = sum;
+      }
+    });
+    gather_groups(diagonal_);
+  }
+
+  /// Moves the sum over each group to its root.
+  void gather_groups(Field& field) const {
+    for (std::size_t g = 0; g < f_.groups.count(); ++g) {
+      const std::ptrdiff_t root = f_.groups.members[f_.groups.first[g]].cell;
+      for (std::size_t m = f_.groups.first[g] + 1; m < f_.groups.first[g + 1]; ++m) {
+        field[root] += field[f_.groups.members[m].cell];
+        field[f_.groups.members[m].cell] = 0;
+      }
+    }
+  }
+  void copy_to_members(Field& field) const {
+    for (std::size_t g = 0; g < f_.groups.count(); ++g) {
+      const double value = field[f_.groups.members[f_.groups.first[g]].cell];
+      for (std::size_t m = f_.groups.first[g] + 1; m < f_.groups.first[g + 1]; ++m) field[f_.groups.members[m].cell] = value;
+    }
+  }
+
+  void sum_rates(Field& out, double sign) const {
+    const Grid& grid = f_.grid;
+    for_rows(grid, 0, [&](int j, int k) {
+      const Field &qx = f_.face_rate[0], &qy = f_.face_rate[1], &qz = f_.face_rate[2];
+      for (std::ptrdiff_t c = grid.at(1, j, k), end = c + grid.nx; c < end; ++c) {
+        out[c] = sign * (qx[c + 1] - qx[c] + qy[c + grid.sy] - qy[c] + qz[c + grid.sz] - qz[c]);
+      }
+    });
+  }
+
+  void initial_rates(Field& out) {
+    face_rates(f_, f_.velocity, f_.face_rate);
+    sum_rates(out, 1.0);
+    for (const WallPiece& wall : f_.after.walls) {
+      for (int body = 0; body < 2; ++body) {
+        for (int d = 0; d < 3; ++d) out[wall.cell] += wall.area[body][d] * wall.velocity[body][d];
+      }
+    }
+    gather_groups(out);
+    for (std::size_t c = 0; c < out.size(); ++c) out[c] *= unknown_[c];
+  }
+
+  /// Velocity that an impulse per area in the cells gives to the nodes.
+  void give_kick(Field& impulse) {
+    const Grid& grid = f_.grid;
+    copy_to_members(impulse);
+    const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
+    const double* p = impulse.data();
+    for_rows(grid, 1, [&](int j, int k) {
+      const std::ptrdiff_t row = grid.at(0, j, k);
+      const double *ax = f_.face_coefficient[0].data(), *ay = f_.face_coefficient[1].data(), *az = f_.face_coefficient[2].data();
+      for (std::ptrdiff_t n = row + 1; n <= row + grid.nx + 1; ++n) {
+        const auto sum = [&](const double* a, std::ptrdiff_t s, std::ptrdiff_t t1, std::ptrdiff_t t2) {
+          const auto push = [&](std::ptrdiff_t face) { return a[face] * (p[face - s] - p[face]); };
+          return (push(n) + push(n - t1)) + (push(n - t2) + push(n - t1 - t2));
+        };
+        const double scale = f_.node_mass[n] > 0 ? f_.node_fraction[n] / f_.node_mass[n] : 0.0;
+        kick_[0][n] = scale * sum(ax, 1, sy, sz);
+        kick_[1][n] = scale * sum(ay, sy, 1, sz);
+        kick_[2][n] = scale * sum(az, sz, 1, sy);
+      }
+    });
+  }
+
+  void apply(Field& direction, Field& image) {
+    give_kick(direction);
+    face_rates(f_, kick_, f_.face_rate);
+    sum_rates(image, -1.0);
+    gather_groups(image);
+    for (std::size_t c = 0; c < image.size(); ++c) {
+      image[c] *= unknown_[c];
+      direction[c] *= unknown_[c];  // members were copies
+    }
+  }
+
+  void precondition(const Field& residual, Field& z) const {
+    for (std::size_t c = 0; c < z.size(); ++c) z[c] = unknown_[c] > 0 && diagonal_[c] > 0 ? residual[c] / diagonal_[c] : 0.0;
+  }
+
+  double dot(const Field& a, const Field& b) const {
+    return compute::ordered_sum(a.size(), 1 << 14, [&](std::size_t c) { return a[c] * b[c]; });
+  }
+
+  Fluid& f_;
+  Field unknown_, diagonal_;
+  std::array<Field, 3>& kick_;
+};
+
+/// Mean velocity of the vehicle's wall, weighted with its area.
+std::array<double, 3> body_velocity(const Fluid& fluid) {
+  double weight = 0;
+  std::array<double, 3> sum{};
+  for (const WallPiece& wall : fluid.after.walls) {
+    const auto& s = wall.area[0];
+    const double area = std::sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+    weight += area;
+    for (int d = 0; d < 3; ++d) sum[d] += area * wall.velocity[0][d];
+  }
+  for (double& component : sum) component = weight > 0 ? component / weight : 0.0;
+  return sum;
+}
+
+void add_bernoulli_pressure(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  const std::array<double, 3> body = body_velocity(fluid);
+  Field raise(grid.size, 0.0);
+  const auto raise_of = [&](std::ptrdiff_t c) {
+    double weight = 0;
+    std::array<double, 3> u{};
+    for (int corner = 0; corner < 8; ++corner) {
+      const std::ptrdiff_t n = c + (corner & 1) + (corner & 2 ? grid.sy : 0) + (corner & 4 ? grid.sz : 0);
+      weight += fluid.node_fraction[n];
+      for (int d = 0; d < 3; ++d) u[d] += fluid.node_fraction[n] * (fluid.velocity[d][n] - fluid.setup.ambient_velocity[d]);
+    }
+    double value = 0;
+    for (int d = 0; d < 3; ++d) {
+      const double mean = weight > 0 ? u[d] / weight : 0.0;
+      value += (body[d] - fluid.setup.ambient_velocity[d]) * mean - 0.5 * mean * mean;
+    }
+    return fluid.density[c] * value;
+  };
+  for_rows(grid, 0, [&](int j, int k) {
+    for (std::ptrdiff_t c = grid.at(1, j, k), end = c + grid.nx; c < end; ++c) {
+      if (fluid.density[c] > 0 && fluid.material[air].mass[c] == 0) raise[c] = raise_of(c);
+    }
+  });
+  for (std::size_t g = 0; g < fluid.groups.count(); ++g) {
+    double sum = 0, volume = 0;
+    for (std::size_t m = fluid.groups.first[g]; m < fluid.groups.first[g + 1]; ++m) {
+      const std::ptrdiff_t c = fluid.groups.members[m].cell;
+      sum += raise[c] * fluid.after.volume[c];
+      volume += fluid.after.volume[c];
+    }
+    for (std::size_t m = fluid.groups.first[g]; m < fluid.groups.first[g + 1]; ++m) {
+      raise[fluid.groups.members[m].cell] = volume > 0 ? sum / volume : 0.0;
+    }
+  }
+  for_rows(grid, 0, [&](int j, int k) {
+    for (std::ptrdiff_t c = grid.at(1, j, k), end = c + grid.nx; c < end; ++c) {
+      if (raise[c] == 0 || fluid.density[c] <= 0 || fluid.material[air].mass[c] > 0) continue;
+      const double mass = fluid.material[water].mass[c], volume = fluid.after.volume[c];
+      if (!(mass > 0)) continue;
+      const double e = fluid.material[water].energy[c] / mass;
+      const double pressure = std::max(fluid.pressure[c] + raise[c], fluid.setup.pressure_floor[water]);
+      const double density = density_at(fluid.setup.law[water], pressure, e, fluid.density[c]);
+      fluid.material[water].mass[c] = density * volume;
+      fluid.material[water].energy[c] = e * density * volume;
+    }
+  });
+}
+
+}  // namespace
+
+int start_potential_flow(Fluid& fluid) {
+  const int iterations = Projection(fluid).run();
+  add_bernoulli_pressure(fluid);
+  finish_filling(fluid);
+  return iterations;
+}
+
+}  // namespace polynya::fluid
