@@ -13,6 +13,9 @@ namespace {
 
 using Field = std::vector<double>;
 constexpr int most_iterations = 3000;
+/// A member of a group that is at least so full keeps its own impulse: the step's prediction also holds the members of a
+/// group to the walls' motion one by one, and a start that ignores it would begin with a jolt.
+constexpr double own_fill = 0.01;
 constexpr double tolerance = 1e-6;  ///< of the norm of the initial rates of volume
 
 class Projection {
@@ -64,10 +67,15 @@ class Projection {
       const GroupState& state = f_.group_states[g];
       const bool wet = state.volume > 0 && state.content.volume[air] <= 1e-9 * state.volume;
       for (std::size_t m = f_.groups.first[g]; m < f_.groups.first[g + 1]; ++m) {
-        // One member in full, the others as copies: sums over unknowns count a group once.
-        unknown_[f_.groups.members[m].cell] = wet && m == f_.groups.first[g] ? 1.0 : 0.0;
+        // Emptier members are copies of the root: sums over unknowns count them once.
+        unknown_[f_.groups.members[m].cell] = wet && (m == f_.groups.first[g] || !follows_root(m)) ? 1.0 : 0.0;
       }
     }
+  }
+
+  bool follows_root(std::size_t member) const {
+    const std::ptrdiff_t c = f_.groups.members[member].cell;
+    return f_.after.volume[c] < own_fill * full_volume(f_.grid, c);
   }
 
   void find_diagonal() {
@@ -96,6 +104,7 @@ class Projection {
     for (std::size_t g = 0; g < f_.groups.count(); ++g) {
       const std::ptrdiff_t root = f_.groups.members[f_.groups.first[g]].cell;
       for (std::size_t m = f_.groups.first[g] + 1; m < f_.groups.first[g + 1]; ++m) {
+        if (!follows_root(m)) continue;
         field[root] += field[f_.groups.members[m].cell];
         field[f_.groups.members[m].cell] = 0;
       }
@@ -104,7 +113,9 @@ class Projection {
   void copy_to_members(Field& field) const {
     for (std::size_t g = 0; g < f_.groups.count(); ++g) {
       const double value = field[f_.groups.members[f_.groups.first[g]].cell];
-      for (std::size_t m = f_.groups.first[g] + 1; m < f_.groups.first[g + 1]; ++m) field[f_.groups.members[m].cell] = value;
+      for (std::size_t m = f_.groups.first[g] + 1; m < f_.groups.first[g + 1]; ++m) {
+        if (follows_root(m)) field[f_.groups.members[m].cell] = value;
+      }
     }
   }
 
