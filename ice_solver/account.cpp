@@ -14,11 +14,10 @@ Account account_of(const IceBody& ice) {
   const IceBooks& books = ice.books;
   Account account;
   account.kinetic = elements.kinetic - books.removed_since_step + books.particle_kinetic;
-  account.internal = elements.internal + sum_of(ice.particles.stress_work) + books.bond_work;
+  account.internal = elements.internal + sum_of(ice.particles.stress_work);
   account.hourglass = elements.hourglass;
-  account.viscous = elements.viscous + books.particle_heat;
+  account.viscous = elements.viscous + books.particle_heat.total;
   account.conversion_heat = books.conversion_heat;
-  account.bond_work = books.bond_work;
   account.boundary_flux = elements.boundary_flux;
   account.gravity_work = books.node_gravity_work.total + books.particle_gravity_work.total;
   account.external_work = elements.external_work - books.node_pair_work.total - books.node_gravity_work.total +
@@ -36,7 +35,7 @@ Account account_of(const IceBody& ice) {
 
 const std::vector<std::string>& account_names() {
   static const std::vector<std::string> names{
-      "kinetic",       "internal",     "hourglass",   "viscous",    "conversion_heat",    "bond_work",
+      "kinetic",       "internal",     "hourglass",   "viscous",    "conversion_heat",
       "boundary_flux", "external_work", "gravity_work", "step_change", "momentum_x",        "momentum_y",
       "momentum_z",    "boundary_impulse_x", "boundary_impulse_y", "boundary_impulse_z", "gravity_impulse_z", "mass", "broken_mass",
       "converted_elements", "particles"};
@@ -44,7 +43,7 @@ const std::vector<std::string>& account_names() {
 }
 
 std::vector<double> account_values(const Account& a) {
-  return {a.kinetic,       a.internal,      a.hourglass,    a.viscous,      a.conversion_heat,    a.bond_work,
+  return {a.kinetic,       a.internal,      a.hourglass,    a.viscous,      a.conversion_heat,
           a.boundary_flux, a.external_work, a.gravity_work, a.step_change,  a.momentum[0],        a.momentum[1],
           a.momentum[2],   a.boundary_impulse[0], a.boundary_impulse[1], a.boundary_impulse[2], a.gravity_impulse, a.mass, a.broken_mass,
           a.converted_elements, a.particles};

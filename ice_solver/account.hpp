@@ -11,11 +11,10 @@ namespace polynya::ice {
 ///     - external_work - gravity_work - step_change
 struct Account {
   double kinetic = 0;
-  double internal = 0;          ///< work of the stress in elements, particles and the bond between them
+  double internal = 0;          ///< work of the stress in elements and particles
   double hourglass = 0;
   double viscous = 0;           ///< bulk viscosity of elements and artificial viscosity of particles
   double conversion_heat = 0;   ///< motion within elements that became particles
-  double bond_work = 0;         ///< part of internal: work of the elements' stress in the bond to particles
   double boundary_flux = 0;     ///< out through non-reflecting sides
   double external_work = 0;     ///< done by loads and by what holds prescribed nodes
   double gravity_work = 0;

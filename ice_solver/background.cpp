@@ -101,7 +101,6 @@ void select_background(Background& background, const continuum::ExplicitSolid& s
     const auto e = static_cast<std::size_t>(background.elements[k]);
     points.mass[k] = solid.element.mass[e];
     points.smoothing_length[k] = std::min(smoothing_length_of(solid.element.reference_volume[e]), largest_smoothing_length);
-    points.cohesion[k] = 1;
   }
   refresh_background(background, solid);
 }

@@ -84,10 +84,8 @@ void internal_forces(IceBody& ice, double dt) {
   ice.sums.velocity_gradients(ice.list, particles.points, background, particles.velocity_gradient,
                               particles.approach_speed);
   update_particle_stress(particles, ice.solid.law, dt);
-  const PairBalance balance = ice.sums.forces(ice.list, particles.points, background, viscosity_of(ice));
+  ice.sums.forces(ice.list, particles.points, background, viscosity_of(ice));
   spread_background_forces(ice.background, ice.solid, ice.pair_force);
-  ice.books.particle_heat += dt * balance.viscous_power;
-  ice.books.bond_work -= dt * balance.bond_power;
 }
 
 double stable_step(const IceBody& ice) {

@@ -29,7 +29,7 @@ struct IceOptions {
   double critical_strain = 0.35;
   double collapsed_step = 0.1;   ///< an element is also converted when its stable step falls below this part of its first
   double gravity = 0;            ///< m/s^2, along -z
-  double viscosity_linear = 1.0, viscosity_quadratic = 2.0;  ///< of the particles: Monaghan's alpha and beta
+  double viscosity_linear = 0.1, viscosity_quadratic = 2.0;  ///< of the particles: Monaghan's alpha and beta
 };
 
 /// Time integral of a rate that is known at the ends of steps, by the trapezoidal rule: each value closes half a step
@@ -57,8 +57,7 @@ struct IceBooks {
   double particle_kinetic = 0;
   double removed_since_step = 0;                    ///< kinetic energy of elements converted after the last step
   Trapezoid particle_step_change;
-  double particle_heat = 0;                         ///< work of the artificial viscosity
-  double bond_work = 0;                             ///< work the elements' stress took from the motion in the bond
+  Trapezoid particle_heat;                          ///< taken from the motion by the artificial viscosity
   Trapezoid node_pair_work, node_gravity_work, particle_gravity_work, particle_load_work;
   std::array<Trapezoid, 3> boundary_impulse;        ///< of symmetry planes, held and damped nodes
   Trapezoid gravity_impulse;                        ///< along z

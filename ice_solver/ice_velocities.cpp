@@ -21,14 +21,18 @@ double gravity_power(const std::vector<double>& mass, const std::vector<double>&
 }
 
 struct Powers {
-  double node_pair, node_gravity, particle_gravity, particle_load;
+  double node_pair, viscous, node_gravity, particle_gravity, particle_load;
 };
 
 /// Powers of the forces at t(n+1) with the present velocities.
 Powers powers(const IceBody& ice, std::span<const double> particle_loads) {
   const Points& points = ice.particles.points;
-  Powers p{0, 0, 0, 0};
-  if (points.count() > 0) p.node_pair = product(ice.pair_force, ice.solid.velocities);
+  Powers p{};
+  if (points.count() > 0) {
+    p.node_pair = product(ice.pair_force, ice.solid.velocities);
+    p.viscous = -product(points.viscous_force, points.velocity) -
+                product(ice.background.points.viscous_force, ice.background.points.velocity);
+  }
   p.node_gravity = gravity_power(ice.solid.masses, ice.solid.velocities, ice.options.gravity);
   p.particle_gravity = gravity_power(points.mass, points.velocity, ice.options.gravity);
   p.particle_load = product(particle_loads, points.velocity);
@@ -119,11 +123,13 @@ void advance_velocities(IceBody& ice, std::span<const double> node_loads, std::s
   const Powers closing = powers(ice, particle_loads);
   continuum::advance_velocities(ice.solid, ice.nodal_force, dt_previous, dt_next);
   advance_particles(ice, particle_loads, dt_previous, dt_next);
+  if (ice.particles.count() > 0) refresh_background(ice.background, ice.solid);  // its velocities
   const Powers opening = powers(ice, particle_loads);
   const auto book = [&](Trapezoid& account, double Powers::*which) {
     account.add(0.5 * dt_previous * closing.*which, 0.5 * dt_next * opening.*which);
   };
   book(ice.books.node_pair_work, &Powers::node_pair);
+  book(ice.books.particle_heat, &Powers::viscous);
   book(ice.books.node_gravity_work, &Powers::node_gravity);
   book(ice.books.particle_gravity_work, &Powers::particle_gravity);
   book(ice.books.particle_load_work, &Powers::particle_load);

@@ -25,7 +25,6 @@ nlohmann::json last_words(const IceRun& run) {
             {"hourglass", factor * a.hourglass},
             {"viscous", factor * a.viscous},
             {"conversion_heat", factor * a.conversion_heat},
-            {"bond_work", factor * a.bond_work},
             {"boundary_flux", factor * a.boundary_flux},
             {"external_work", factor * a.external_work},
             {"gravity_work", factor * a.gravity_work},

@@ -15,11 +15,10 @@ namespace {
 using compute::Pack;
 using compute::pack_width;
 
-// Columns of a record: motion first, then what forces need. `role` is the cohesion of a particle (0..1) or is_element.
+// Columns of a record: motion first, then what forces need. `role` is 1 for an element, 0 for a particle.
 enum Motion : std::size_t { px, py, pz, vx, vy, vz, mass, length };
 enum Strength : std::size_t { sxx, syy, szz, sxy, syz, szx, density, role };
 constexpr std::size_t strength = 8;  // where the second half begins
-constexpr double is_element = 2.0;
 constexpr std::size_t stride = RecordColumns::stride;
 
 /// A pair's separation and mean smoothing length. The distance is kept from zero so that nothing is
@@ -52,10 +51,9 @@ Vector traction(const Number* s, const Separation& r) {
   return {s[sxx] * r.x + s[sxy] * r.y + s[szx] * r.z, s[sxy] * r.x + s[syy] * r.y + s[syz] * r.z,
           s[szx] * r.x + s[syz] * r.y + s[szz] * r.z};
 }
-Pack dot(const Vector& a, const Separation& r) { return a.x * r.x + a.y * r.y + a.z * r.z; }
 
 struct ForceSum {
-  Pack x{0.0}, y{0.0}, z{0.0}, viscous{0.0}, bond{0.0};
+  Pack x{0.0}, y{0.0}, z{0.0}, viscous_x{0.0}, viscous_y{0.0}, viscous_z{0.0};
 };
 
 /// Adds the force of one pack of neighbours on `self`. Which side is an element is known per row or per lane.
@@ -71,32 +69,29 @@ void add_pair_forces(const double* self, const double* records, const std::int32
   const Pack inverse = 1.0 / (product * viscous_product);  // one division for all
   const Pack weight = self[mass] * other[mass] * kernel_gradient(r, inverse * viscous_product);
 
-  // Only what an element contributes is filtered and booked as bond work; particles answer for themselves.
+  // Where an element takes part, the particle's stress stands for both sides.
   Vector own = traction(self + strength, r), theirs = traction(other_state, r);
-  const Pack& role_of_other = other_state[role];
-  Vector& element = self_is_element ? own : theirs;
-  Pack share(1.0);
   if constexpr (self_is_element) {
-    where(dot(own, r) > 0.0, share) = role_of_other;
+    own = theirs;
   } else {
-    where(dot(theirs, r) > 0.0 && role_of_other == is_element, share) = Pack(self[strength + role]);
+    const auto element = other_state[role] != 0.0;
+    where(element, theirs.x) = own.x;
+    where(element, theirs.y) = own.y;
+    where(element, theirs.z) = own.z;
   }
-  element = {element.x * share, element.y * share, element.z * share};
 
   const Pack dvx = self[vx] - other[vx], dvy = self[vy] - other[vy], dvz = self[vz] - other[vz];
   const Pack approach = dvx * r.x + dvy * r.y + dvz * r.z;
   const Pack inverse_viscous = inverse * product;
   const Pack mu = min(Pack(0.0), r.smoothing_length * approach * (inverse_viscous * mean_density));
   const Pack pressure = mu * (viscosity.beta * mu - viscosity.alpha * viscosity.sound_speed) * (inverse_viscous * smoothed);
-  sum.x += weight * (own.x + theirs.x - pressure * r.x);
-  sum.y += weight * (own.y + theirs.y - pressure * r.y);
-  sum.z += weight * (own.z + theirs.z - pressure * r.z);
-  sum.viscous += weight * pressure * approach;
-  if constexpr (!self_is_element) {
-    Pack power = weight * (theirs.x * dvx + theirs.y * dvy + theirs.z * dvz);
-    where(role_of_other != is_element, power) = 0.0;
-    sum.bond += power;
-  }
+  const Pack push = weight * pressure;
+  sum.x += weight * (own.x + theirs.x);
+  sum.y += weight * (own.y + theirs.y);
+  sum.z += weight * (own.z + theirs.z);
+  sum.viscous_x -= push * r.x;
+  sum.viscous_y -= push * r.y;
+  sum.viscous_z -= push * r.z;
 }
 
 }  // namespace
@@ -124,7 +119,11 @@ void PairSums::load_records(const NeighbourList& list, const Points& particles, 
       record[vz] = set.velocity[3 * i + 2];
       record[mass] = set.mass[i];
       record[length] = set.smoothing_length[i];
-      if (!with_stress) continue;
+      if (!with_stress) {
+        // Seen from a particle an element counts twice: see PairSums.
+        if (source.element) record[mass] *= 2;
+        continue;
+      }
       const double* stress = &set.stress[6 * i];
       const double scale = 1 / (set.density[i] * set.density[i]);
       double* state = record + strength;
@@ -135,7 +134,7 @@ void PairSums::load_records(const NeighbourList& list, const Points& particles, 
       state[syz] = sign.y * scale * stress[4];
       state[szx] = sign.x * scale * stress[5];
       state[density] = set.density[i];
-      state[role] = source.element ? is_element : set.cohesion[i];
+      state[role] = source.element ? 1.0 : 0.0;
     }
   });
 }
@@ -175,14 +174,11 @@ void PairSums::velocity_gradients(const NeighbourList& list, const Points& parti
   });
 }
 
-PairBalance PairSums::forces(const NeighbourList& list, Points& particles, Points& elements,
-                             const PairViscosity& viscosity) {
+void PairSums::forces(const NeighbourList& list, Points& particles, Points& elements,
+                      const PairViscosity& viscosity) {
   load_records(list, particles, elements, true);
   const auto rows = list.rows();
-  const std::size_t chunks = (rows.size() + NeighbourList::chunk - 1) / NeighbourList::chunk;
-  std::vector<PairBalance> partial(chunks);
   compute::for_chunks(rows.size(), NeighbourList::chunk, [&](std::size_t begin, std::size_t end) {
-    PairBalance& balance = partial[begin / NeighbourList::chunk];
     for (std::size_t row = begin; row < end; ++row) {
       const PointSource& source = list.points()[static_cast<std::size_t>(rows[row].point)];
       const double* self = records_[static_cast<std::size_t>(rows[row].point)].value;
@@ -196,18 +192,15 @@ PairBalance PairSums::forces(const NeighbourList& list, Points& particles, Point
           add_pair_forces<false>(self, records_[0].value, neighbour, viscosity, sum);
         }
       }
-      double* force = &(source.element ? elements : particles).force[3 * static_cast<std::size_t>(source.index)];
-      force[0] = reduce(sum.x), force[1] = reduce(sum.y), force[2] = reduce(sum.z);
-      balance.viscous_power += 0.5 * reduce(sum.viscous);  // every pair is met from both sides
-      balance.bond_power += reduce(sum.bond);
+      Points& set = source.element ? elements : particles;
+      const std::size_t i = 3 * static_cast<std::size_t>(source.index);
+      const Pack* const sums[] = {&sum.viscous_x, &sum.viscous_y, &sum.viscous_z, &sum.x, &sum.y, &sum.z};
+      for (std::size_t c = 0; c < 3; ++c) {
+        set.viscous_force[i + c] = reduce(*sums[c]);
+        set.force[i + c] = reduce(*sums[3 + c]) + set.viscous_force[i + c];
+      }
     }
   });
-  PairBalance total;
-  for (const PairBalance& part : partial) {
-    total.viscous_power += part.viscous_power;
-    total.bond_power += part.bond_power;
-  }
-  return total;
 }
 
 }  // namespace polynya::ice

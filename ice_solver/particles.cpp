@@ -44,7 +44,6 @@ void store_state(Particles& p, const Lanes& lanes, const PointState<Pack>& state
   lanes.store(p.relative_volume, state.relative_volume);
   lanes.store(p.points.density, reference_density / state.relative_volume);
   lanes.store(p.damage, state.damage);
-  lanes.store(p.points.cohesion, 1.0 - state.damage);
   lanes.store(p.plastic_strain, state.plastic_strain);
   lanes.store(p.bulking_pressure, state.bulking_pressure);
 }
@@ -98,7 +97,7 @@ void add_particle(Particles& p, const continuum::Law& law, const ParticleBirth& 
   p.points.mass.push_back(birth.mass);
   p.points.density.push_back(continuum::density(law) / birth.state.relative_volume);
   p.points.smoothing_length.push_back(birth.smoothing_length);
-  p.points.cohesion.push_back(1 - birth.state.damage);
+  append(p.points.viscous_force, std::array{0.0, 0.0, 0.0});
   p.element.push_back(birth.element);
   p.relative_volume.push_back(birth.state.relative_volume);
   p.damage.push_back(birth.state.damage);

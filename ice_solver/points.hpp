@@ -12,16 +12,16 @@ struct Points {
   std::vector<double> mass;              ///< [n], kg
   std::vector<double> density;           ///< [n], kg/m^3
   std::vector<double> smoothing_length;  ///< [n], m
-  std::vector<double> cohesion;          ///< [n], 0..1: the share of a neighbouring element's tension that it feels
   std::vector<double> force;             ///< [n][3], N, result of the sums
+  std::vector<double> viscous_force;     ///< [n][3], N, the part of it that is artificial viscosity
 
   std::size_t count() const { return mass.size(); }
   void resize(std::size_t count);
 };
 
 inline void Points::resize(std::size_t count) {
-  for (auto* vector : {&position, &velocity, &force}) vector->resize(3 * count);
-  for (auto* scalar : {&mass, &density, &smoothing_length, &cohesion}) scalar->resize(count);
+  for (auto* vector : {&position, &velocity, &force, &viscous_force}) vector->resize(3 * count);
+  for (auto* scalar : {&mass, &density, &smoothing_length}) scalar->resize(count);
   stress.resize(6 * count);
 }
 

@@ -20,7 +20,6 @@ inline Points lattice(std::array<int, 3> number, double spacing, std::array<doub
         points.density[i] = density;
         points.mass[i] = density * spacing * spacing * spacing;
         points.smoothing_length[i] = 1.2 * spacing;
-        points.cohesion[i] = 1;
       }
   return points;
 }
