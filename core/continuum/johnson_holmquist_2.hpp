@@ -123,6 +123,13 @@ POLYNYA_INLINE T bulked_pressure(const JohnsonHolmquist2& law, const T& mu, cons
   return square_root(T(total * total + 2.0 * law.bulking_fraction * law.bulk_modulus * released)) - linear;
 }
 
+/// Whether the trial stress lies beyond the strength by more than round-off. It matters where the strength is 0, at the
+/// tensile cut-off: there the smallest shear fractures, but the last digit of a hydrostatic stress is no shear.
+template <class T>
+POLYNYA_INLINE auto exceeds(const JohnsonHolmquist2& law, const T& trial, const T& strength) {
+  return trial > strength + 1e-12 * law.shear_modulus;
+}
+
 /// Plastic flow of one step: radial return to the strength at the old damage, then damage and bulking. The strength
 /// lost to the damage of a step is returned to in the next one; so the law follows its rate equations where they have a
 /// solution, and fractures within a few steps where the strength falls faster than elastic unloading can follow.
@@ -130,7 +137,7 @@ template <class T>
 void flow_plastically(const JohnsonHolmquist2& law, PointState<T>& state, SymmetricTensor<T>& deviator, const T& mu,
                       const T& rate, const T& trial, const T& old_strength, T& p) {
   const T zero = T(0.0), one = T(1.0);
-  const auto yields = trial > old_strength;
+  const auto yields = exceeds(law, trial, old_strength);
   const auto y = strength(law, p, rate, true, true);
   const T increment = select(yields, T((trial - old_strength) / (3.0 * law.shear_modulus)), zero);
   const T scale = select(yields, T(old_strength / maximum(trial, T(1e-290))), one);
@@ -172,7 +179,7 @@ POLYNYA_INLINE T advance_stress(const JohnsonHolmquist2& law, PointState<T>& sta
   const T trial = equivalent_stress(deviator);
   const auto y = strength(law, p, rate, any(state.damage > zero), false);
   const T flow = y.intact - state.damage * (y.intact - y.fractured);
-  if (any(trial > flow)) flow_plastically(law, state, deviator, mu, rate, trial, flow, p);
+  if (any(exceeds(law, trial, flow))) flow_plastically(law, state, deviator, mu, rate, trial, flow, p);
 
   state.stress = deviator;
   for (int c = 0; c < 3; ++c) state.stress[c] -= p;
