@@ -34,7 +34,7 @@ Fluid make_fluid(const scene::Scene& scene) {
   setup.law = {law_of(scene.material(description.water)), law_of(scene.material(description.air))};
   const bool cavitates = scene.effect("cavitation");
   setup.pressure_floor = {cavitates ? description.vapour_pressure : -1e300, 0.0};
-  setup.gravity = scene.effect("hydrostatics") ? scene.run.gravity : 0.0;
+  setup.gravity = scene.run.gravity;
   setup.atmospheric_pressure = description.atmospheric_pressure;
   setup.boundary.fill(description.outer_boundary == "non_reflecting" ? Boundary::non_reflecting : Boundary::wall);
   if (scene.symmetry == scene::Symmetry::quarter) setup.boundary[0] = Boundary::wall;
