@@ -12,9 +12,12 @@ namespace {
 
 geometry::Portion portion_of(scene::Symmetry symmetry) {
   switch (symmetry) {
-    case scene::Symmetry::quarter: return geometry::Portion::quarter;
-    case scene::Symmetry::half: return geometry::Portion::half;
-    case scene::Symmetry::full: break;
+    case scene::Symmetry::quarter:
+      return geometry::Portion::quarter;
+    case scene::Symmetry::half:
+      return geometry::Portion::half;
+    case scene::Symmetry::full:
+      break;
   }
   return geometry::Portion::full;
 }
@@ -30,7 +33,8 @@ continuum::Elastic elastic_material(const scene::Scene& scene) {
 /// Volume of the material of the exact shape, m^3.
 double exact_volume(const geometry::Meridian& outline, double wall_thickness) {
   const double outer = geometry::enclosed_volume(outline);
-  return wall_thickness > 0 ? outer - geometry::enclosed_volume(geometry::InnerOutline(outline, wall_thickness)) : outer;
+  return wall_thickness > 0 ? outer - geometry::enclosed_volume(geometry::InnerOutline(outline, wall_thickness))
+                            : outer;
 }
 
 std::string in_words(const char* format, double value) {
@@ -59,8 +63,8 @@ BuiltVehicle build_vehicle(const scene::Scene& scene) {
   if (wall_from_mass) {
     options.wall_thickness =
         geometry::wall_thickness_for_volume(outline, options, v.mass / material.density / portions);
-    built.mass_note = in_words("The wall is %.4f mm thick so that the mesh has the requested mass.",
-                               options.wall_thickness * 1e3);
+    built.mass_note =
+        in_words("The wall is %.4f mm thick so that the mesh has the requested mass.", options.wall_thickness * 1e3);
   }
   built.mesh = geometry::make_vehicle_mesh(outline, options);
   built.quality = geometry::measure_quality(built.mesh.hexahedra);

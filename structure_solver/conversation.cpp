@@ -8,7 +8,9 @@
 namespace polynya::structure {
 namespace {
 
-std::int64_t rows(std::size_t count) { return static_cast<std::int64_t>(count); }
+std::int64_t rows(std::size_t count) {
+  return static_cast<std::int64_t>(count);
+}
 
 void add_motion(exchange::Message& message, const VehicleBody& body) {
   const std::size_t n = body.hull_vertices();

@@ -37,9 +37,13 @@ DeformableVehicle::DeformableVehicle(const geometry::VehicleMesh& mesh, const co
   continuum::advance_velocities(solid_, external_, 0, 0);
 }
 
-void DeformableVehicle::advance_positions(double dt) { continuum::advance_positions(solid_, dt); }
+void DeformableVehicle::advance_positions(double dt) {
+  continuum::advance_positions(solid_, dt);
+}
 
-void DeformableVehicle::internal_forces(double dt) { continuum::internal_forces(solid_, dt); }
+void DeformableVehicle::internal_forces(double dt) {
+  continuum::internal_forces(solid_, dt);
+}
 
 void DeformableVehicle::finish_step(std::span<const double> hull_force, double dt_previous, double dt_next) {
   external_ = weight_;
@@ -49,7 +53,9 @@ void DeformableVehicle::finish_step(std::span<const double> hull_force, double d
   continuum::advance_velocities(solid_, external_, dt_previous, dt_next);
 }
 
-double DeformableVehicle::stable_step() const { return continuum::stable_step(solid_); }
+double DeformableVehicle::stable_step() const {
+  return continuum::stable_step(solid_);
+}
 
 double DeformableVehicle::centre_of_mass_z() const {
   return compute::ordered_sum(solid_.node_count(), node_chunk,

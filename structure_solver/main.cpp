@@ -27,7 +27,8 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   auto* connect = app.add_option("--connect", options.endpoint, "the coupler's endpoint");
   app.add_option("--run", options.run, "identity of the run, the coupler's")->needs(connect);
   app.add_option("--name", options.name, "name under which the coupler expects this process");
-  app.add_option("--threads", options.threads, "threads to use; 0: as many as OpenMP offers")->check(CLI::NonNegativeNumber);
+  app.add_option("--threads", options.threads, "threads to use; 0: as many as OpenMP offers")
+      ->check(CLI::NonNegativeNumber);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

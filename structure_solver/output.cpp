@@ -111,7 +111,8 @@ nlohmann::json Output::summary() const {
   s["peak_head_stress_vertex"] = peak_vertex_;
   s["speed"] = account_.speed_z;
   const auto values = account_values(account_);
-  for (std::size_t i = 0; i < account_entries.size(); ++i) s["account"][std::string(account_entries[i].name)] = values[i];
+  for (std::size_t i = 0; i < account_entries.size(); ++i)
+    s["account"][std::string(account_entries[i].name)] = values[i];
   s["energy_error"] = first_.kinetic > 0 ? (account_.balance() - first_.balance()) / first_.kinetic : 0.0;
   return s;
 }

@@ -10,14 +10,14 @@ enum class Freedom { full, plane, axial };
 /// A rigid body in a leapfrog: centre and orientation at t(n), velocity and angular momentum at t(n+1/2).
 struct RigidMotion {
   Freedom freedom = Freedom::full;
-  double mass = 0;                                                  ///< kg
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Identity();            ///< kg m^2, about the centre, in the body's frame
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();                 ///< m
-  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();        ///< body frame to space
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< m/s
-  Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();       ///< kg m^2/s, in space
-  double kinetic_energy = 0;                                        ///< J at t(n), see push()
-  double step_change = 0;                                           ///< J, sum of what push() re-read
+  double mass = 0;                                             ///< kg
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Identity();       ///< kg m^2, about the centre, in the body's frame
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();            ///< m
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();   ///< body frame to space
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< m/s
+  Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< kg m^2/s, in space
+  double kinetic_energy = 0;                                   ///< J at t(n), see push()
+  double step_change = 0;                                      ///< J, sum of what push() re-read
 };
 
 /// Moves centre and orientation by one step. The orientation turns by the angular velocity that belongs to the mean of

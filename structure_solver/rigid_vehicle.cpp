@@ -5,9 +5,12 @@ namespace {
 
 Freedom freedom_of(geometry::Portion portion) {
   switch (portion) {
-    case geometry::Portion::full: return Freedom::full;
-    case geometry::Portion::half: return Freedom::plane;
-    case geometry::Portion::quarter: break;
+    case geometry::Portion::full:
+      return Freedom::full;
+    case geometry::Portion::half:
+      return Freedom::plane;
+    case geometry::Portion::quarter:
+      break;
   }
   return Freedom::axial;
 }
@@ -67,9 +70,9 @@ void RigidVehicle::advance_positions(double dt) {
 void RigidVehicle::finish_step(std::span<const double> hull_force, double dt_previous, double dt_next) {
   Eigen::Vector3d force(0, 0, -motion_.mass * gravity_), torque = Eigen::Vector3d::Zero();
   for (std::size_t v = 0; v < hull_.size(); ++v) {
-    const Eigen::Vector3d f =
-        hull_force.empty() ? Eigen::Vector3d(0, 0, 0)
-                           : Eigen::Vector3d(hull_force[3 * v], hull_force[3 * v + 1], hull_force[3 * v + 2]);
+    const Eigen::Vector3d f = hull_force.empty()
+                                  ? Eigen::Vector3d(0, 0, 0)
+                                  : Eigen::Vector3d(hull_force[3 * v], hull_force[3 * v + 1], hull_force[3 * v + 2]);
     force += f;
     torque += (hull_[v] - motion_.centre).cross(f);
     work_ += 0.5 * dt_previous * (last_force_[v] + f).dot(hull_velocity(v));

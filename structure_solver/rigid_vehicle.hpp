@@ -34,10 +34,10 @@ class RigidVehicle final : public VehicleBody {
 
   RigidMotion motion_;
   double gravity_ = 0, initial_centre_z_ = 0, work_ = 0;
-  std::vector<double> reference_;   ///< [n][3], m
-  Points arms_, hull_arms_;         ///< from the centre, body frame, m
-  Points hull_;                     ///< m, at t(n)
-  Points last_force_;               ///< N, of t(n-1)
+  std::vector<double> reference_;                        ///< [n][3], m
+  Points arms_, hull_arms_;                              ///< from the centre, body frame, m
+  Points hull_;                                          ///< m, at t(n)
+  Points last_force_;                                    ///< N, of t(n-1)
   Eigen::Matrix3d turn_rate_ = Eigen::Matrix3d::Zero();  ///< 1/s, change of the orientation in the last step over dt
 };
 

@@ -52,7 +52,9 @@ StressProbe::StressProbe(const continuum::ExplicitSolid& solid, double nose_posi
   }
 }
 
-double StressProbe::head_average(const continuum::ExplicitSolid& solid) const { return volume_average(solid, head_); }
+double StressProbe::head_average(const continuum::ExplicitSolid& solid) const {
+  return volume_average(solid, head_);
+}
 
 double StressProbe::head_maximum(const continuum::ExplicitSolid& solid) const {
   double largest = 0;

@@ -20,8 +20,8 @@ class StressProbe {
   /// Depths in m; nose_position is the z of the nose in the mesh.
   StressProbe(const continuum::ExplicitSolid& solid, double nose_position, double length, double element_size);
 
-  double head_average(const continuum::ExplicitSolid& solid) const;  ///< Pa
-  double head_maximum(const continuum::ExplicitSolid& solid) const;  ///< Pa
+  double head_average(const continuum::ExplicitSolid& solid) const;                         ///< Pa
+  double head_maximum(const continuum::ExplicitSolid& solid) const;                         ///< Pa
   std::array<double, station_count> stations(const continuum::ExplicitSolid& solid) const;  ///< Pa
   std::size_t head_elements() const { return head_.size(); }
 

@@ -15,9 +15,9 @@ namespace polynya::structure {
 /// in so far, so that momentum and impulses balance to rounding.
 struct Account {
   double kinetic = 0, internal = 0, hourglass = 0, viscous = 0;  ///< J
-  double external_work = 0;   ///< J, of the loads, each times the mean of the velocities before and after it
-  double gravity_work = 0;    ///< J
-  double step_change = 0;     ///< J, kinetic energy re-read when the step changes, as in continuum::EnergyAccount
+  double external_work = 0;  ///< J, of the loads, each times the mean of the velocities before and after it
+  double gravity_work = 0;   ///< J
+  double step_change = 0;    ///< J, kinetic energy re-read when the step changes, as in continuum::EnergyAccount
   std::array<double, 3> momentum{};  ///< kg m/s
   double mass = 0;                   ///< kg
   double centre_of_mass_z = 0;       ///< m

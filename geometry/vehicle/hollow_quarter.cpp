@@ -8,14 +8,18 @@ namespace polynya::geometry {
 namespace {
 
 /// `amount` at the edge (distance 0), fading linearly to zero within `reach`: spreads a mitre over a few elements.
-double fading(double amount, double distance, double reach) { return amount * std::max(0.0, 1 - distance / reach); }
+double fading(double amount, double distance, double reach) {
+  return amount * std::max(0.0, 1 - distance / reach);
+}
 
 /// The node of the cavity's surface that faces a node of the hull.
 class InnerNode {
  public:
   InnerNode(const InnerOutline& cavity, const HullNet& net, double size)
-      : cavity_(cavity), shoulder_begin_(net.ring_node(0, net.division.head_rows)),
-        base_begin_(net.ring_node(0, net.division.rows())), size_(size) {}
+      : cavity_(cavity),
+        shoulder_begin_(net.ring_node(0, net.division.head_rows)),
+        base_begin_(net.ring_node(0, net.division.rows())),
+        size_(size) {}
 
   std::array<double, 3> operator()(std::int32_t index, const HullNode& node) const {
     const Meridian& outer = cavity_.outer();
@@ -52,8 +56,7 @@ QuarterMesh make_hollow_quarter(const Meridian& outline, double wall_thickness, 
   const HullNet net = make_hull_net(outline, divide_hull(outline, size), true);
   const InnerNode inner(cavity, net, size);
   std::vector<std::array<double, 3>> inner_nodes(net.nodes.size());
-  for (std::size_t i = 0; i < net.nodes.size(); ++i)
-    inner_nodes[i] = inner(static_cast<std::int32_t>(i), net.nodes[i]);
+  for (std::size_t i = 0; i < net.nodes.size(); ++i) inner_nodes[i] = inner(static_cast<std::int32_t>(i), net.nodes[i]);
   return layer_hull(net, inner_nodes, layers);
 }
 

@@ -8,8 +8,11 @@ namespace polynya::geometry {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr double base_patch_share = 0.58;  ///< half width of the base's patch over the radius: evens out the elements
 
-int divisions(double length, double size) { return std::max(1, static_cast<int>(std::lround(length / size))); }
+int divisions(double length, double size) {
+  return std::max(1, static_cast<int>(std::lround(length / size)));
+}
 
 /// Direction of column c of the rows; exact on the planes of symmetry.
 std::array<double, 2> column_direction(int c, int columns) {
@@ -112,8 +115,6 @@ class NetBuilder {
   HullNet take() { return std::move(net_); }
 
  private:
-  static constexpr double base_patch_share = 0.5;
-
   void add_base_node(double x, double y) {
     const double radius = std::hypot(x, y);
     HullNode node{0, outline_.length(), radius, 1, 0};
@@ -195,7 +196,8 @@ HullDivision divide_hull(const Meridian& outline, double size) {
   const double actual = 0.25 * pi * outline.radius() / d.patch;
   d.head_rows = divisions(outline.head_arc() - 1.1 * patch_width(outline, d.patch, actual), size);
   d.cylinder_rows = std::max(3, divisions(outline.length() - outline.head_length(), size));
-  d.base_rows = divisions(0.5 * outline.radius(), size);
+  // Rather too few than too many: the corner of the base is where a thin shell has its smallest elements.
+  d.base_rows = std::max(1, static_cast<int>((1 - base_patch_share) * outline.radius() / size + 0.25));
   return d;
 }
 

@@ -22,7 +22,7 @@ HullDivision divide_hull(const Meridian& outline, double size);
 
 /// A node of the hull: depth below the nose (m), distance from the axis (m) and direction (cosine, sine) about it.
 struct HullNode {
-  double arc = 0;    ///< arc length from the nose, head nodes only
+  double arc = 0;  ///< arc length from the nose, head nodes only
   double depth = 0, radius = 0;
   double cosine = 1, sine = 0;
 };

@@ -11,10 +11,18 @@ namespace {
 using Vector = std::array<double, 3>;
 using Corners = std::array<Vector, 8>;
 
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector plus(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
+Vector minus(const Vector& a, const Vector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Vector plus(const Vector& a, const Vector& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+double dot(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+double norm(const Vector& a) {
+  return std::sqrt(dot(a, a));
+}
 Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -36,7 +44,8 @@ Corners corners_of(const continuum::HexMesh& mesh, std::size_t element) {
   return c;
 }
 
-/// Volume of a trilinear hexahedron from three triple products (Grandy 1997, the form that is symmetric in the corners).
+/// Volume of a trilinear hexahedron from three triple products (Grandy 1997, the form that is symmetric in the
+/// corners).
 double volume(const Corners& c) {
   const auto d = [&c](int a, int b) { return minus(c[a], c[b]); };
   const auto triple = [](const Vector& a, const Vector& b, const Vector& e) { return dot(a, cross(b, e)); };

@@ -7,8 +7,8 @@
 
 namespace polynya::geometry {
 
-/// Working form of the mesh of a quarter: positions (x, y, depth below the nose), hexahedra in VTK order with z = -depth
-/// up, and the outward quadrilaterals of the outer hull. Coordinates on a plane of symmetry are exactly zero.
+/// Working form of the mesh of a quarter: positions (x, y, depth below the nose), hexahedra in VTK order with z =
+/// -depth up, and the outward quadrilaterals of the outer hull. Coordinates on a plane of symmetry are exactly zero.
 struct QuarterMesh {
   std::vector<std::array<double, 3>> nodes;
   std::vector<std::array<std::int32_t, 8>> elements;

@@ -11,8 +11,8 @@ using Point = std::array<double, 3>;
 
 constexpr double core_share = 0.55;  ///< half width of the core over the radius of the body
 
-/// The core: a column of n x n hexahedra under the nose patch, as many rows tall as the hull. Its top is a blunt cone with
-/// an edge, about as far below the hull as its sides are; from row `flat_row` down its sections are plane.
+/// The core: a column of n x n hexahedra under the nose patch, as many rows tall as the hull. Its top is a blunt cone
+/// with an edge, about as far below the hull as its sides are; from row `flat_row` down its sections are plane.
 class Core {
  public:
   Core(const Meridian& outline, const HullNet& net) : net_(net), n_(net.division.patch), rows_(net.division.rows()) {
@@ -120,8 +120,8 @@ class Core {
 
   const HullNet& net_;
   int n_, rows_, flat_row_ = 0;
-  double width_ = 0, edge_width_ = 0;                          ///< half widths in the cylinder and at the top's edge, m
-  double top_depth_ = 0, edge_depth_ = 0, flat_depth_ = 0;     ///< m below the nose
+  double width_ = 0, edge_width_ = 0;                       ///< half widths in the cylinder and at the top's edge, m
+  double top_depth_ = 0, edge_depth_ = 0, flat_depth_ = 0;  ///< m below the nose
 };
 
 std::vector<Point> core_surface(const HullNet& net, const Core& core) {
@@ -150,8 +150,8 @@ void add_core(QuarterMesh& mesh, const HullNet& net, const Core& core, int layer
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j)
         mesh.elements.push_back({node(i, j, row + 1), node(i + 1, j, row + 1), node(i + 1, j + 1, row + 1),
-                                 node(i, j + 1, row + 1), node(i, j, row), node(i + 1, j, row),
-                                 node(i + 1, j + 1, row), node(i, j + 1, row)});
+                                 node(i, j + 1, row + 1), node(i, j, row), node(i + 1, j, row), node(i + 1, j + 1, row),
+                                 node(i, j + 1, row)});
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       mesh.hull.push_back({node(i, j, rows), node(i, j + 1, rows), node(i + 1, j + 1, rows), node(i + 1, j, rows)});

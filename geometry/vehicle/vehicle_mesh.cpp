@@ -16,16 +16,15 @@ int choose_layers(const Meridian& outline, const VehicleMeshOptions& options) {
   const double relative_size = options.element_size / (2 * outline.radius());
   if (options.wall_thickness > 0) {
     // A thin wall sets the stable step, so a second layer is spent only where the rest of the mesh is fine as well.
-    return relative_size >= 0.099 ? 1 : relative_size >= 0.049 ? 2 : 3;
+    return relative_size >= 0.15 ? 1 : relative_size >= 0.05 ? 2 : 3;
   }
   return std::max(1, static_cast<int>(std::lround(0.4 / (2 * relative_size))));
 }
 
 QuarterMesh make_quarter(const Meridian& outline, const VehicleMeshOptions& options, int layers) {
   if (!(options.element_size > 0)) throw std::invalid_argument("vehicle: the element size must be positive");
-  return options.wall_thickness > 0
-             ? make_hollow_quarter(outline, options.wall_thickness, options.element_size, layers)
-             : make_solid_quarter(outline, options.element_size, layers);
+  return options.wall_thickness > 0 ? make_hollow_quarter(outline, options.wall_thickness, options.element_size, layers)
+                                    : make_solid_quarter(outline, options.element_size, layers);
 }
 
 continuum::HexMesh to_hexahedra(const QuarterMesh& mesh, double nose_position) {

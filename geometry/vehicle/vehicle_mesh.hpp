@@ -15,7 +15,7 @@ enum class Portion { quarter, half, full };
 int portions_in_whole(Portion portion);
 
 struct VehicleMeshOptions {
-  double element_size = 0;    ///< m, along and around the hull
+  double element_size = 0;  ///< m, along and around the hull
   Portion portion = Portion::full;
   double wall_thickness = 0;  ///< m; 0: solid
   int layers = 0;             ///< elements through the wall; 0: from the element size
@@ -31,13 +31,14 @@ enum NodeFlag : std::uint8_t {
 
 /// Hexahedra of a vehicle (nose up, axis = z axis) and the triangles of its outer hull.
 struct VehicleMesh {
-  continuum::HexMesh hexahedra;             ///< sorted from the nose to the base
-  std::vector<std::uint8_t> node_flags;     ///< NodeFlag, per node
-  std::vector<std::int32_t> hull_nodes;     ///< mesh node of each hull vertex
-  std::vector<std::int32_t> hull_triangles; ///< [t][3] into hull_nodes, outward; none on planes of symmetry or in the cavity
-  std::vector<HullRegion> triangle_regions; ///< per triangle
-  double wall_thickness = 0;                ///< m; 0: solid
-  int layers = 0;                           ///< elements through the wall (solid: around the core)
+  continuum::HexMesh hexahedra;          ///< sorted from the nose to the base
+  std::vector<std::uint8_t> node_flags;  ///< NodeFlag, per node
+  std::vector<std::int32_t> hull_nodes;  ///< mesh node of each hull vertex
+  std::vector<std::int32_t>
+      hull_triangles;  ///< [t][3] into hull_nodes, outward; none on planes of symmetry or in the cavity
+  std::vector<HullRegion> triangle_regions;  ///< per triangle
+  double wall_thickness = 0;                 ///< m; 0: solid
+  int layers = 0;                            ///< elements through the wall (solid: around the core)
 };
 
 /// std::invalid_argument when the options do not describe a body. Solid: layers around a core of square section that

@@ -30,7 +30,9 @@ double integral(double a, double b, int panels, Function&& f) {
   return sum;
 }
 
-[[noreturn]] void reject(const std::string& what) { throw std::invalid_argument("vehicle: " + what); }
+[[noreturn]] void reject(const std::string& what) {
+  throw std::invalid_argument("vehicle: " + what);
+}
 
 }  // namespace
 

@@ -41,8 +41,8 @@ TEST(BuildVehicle, MassWithoutAWishIsThatOfTheExactShapeAtEveryResolution) {
     EXPECT_NEAR(build_vehicle(scene).whole_mass / (2700 * geometry::enclosed_volume(outline)), 1, 1e-12);
     scene.vehicle->interior = "hollow";
     scene.vehicle->wall_thickness = 0.8e-3;
-    const double shell = geometry::enclosed_volume(outline) -
-                         geometry::enclosed_volume(geometry::InnerOutline(outline, 0.8e-3));
+    const double shell =
+        geometry::enclosed_volume(outline) - geometry::enclosed_volume(geometry::InnerOutline(outline, 0.8e-3));
     EXPECT_NEAR(build_vehicle(scene).whole_mass / (2700 * shell), 1, 1e-12);
   }
 }

@@ -9,7 +9,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-double spin_energy(const RigidMotion& body) { return 0.5 * angular_velocity(body).dot(body.angular_momentum); }
+double spin_energy(const RigidMotion& body) {
+  return 0.5 * angular_velocity(body).dot(body.angular_momentum);
+}
 
 TEST(RigidMotion, FallsAsHalfGravityTimesTimeSquared) {
   RigidMotion body;
@@ -45,8 +47,7 @@ TEST(RigidMotion, SymmetricTopPrecessesAtTheRateOfTheTextbook) {
   // extrapolate to the exact axis.
   const Vector3d momentum(0, 1.0, 2.0);
   const double time = 3.0;
-  const Vector3d exact =
-      Eigen::AngleAxisd(momentum.norm() / 2.0 * time, momentum.normalized()) * Vector3d(0, 0, 1);
+  const Vector3d exact = Eigen::AngleAxisd(momentum.norm() / 2.0 * time, momentum.normalized()) * Vector3d(0, 0, 1);
   const auto axis = [&](int steps) -> Vector3d {
     RigidMotion body;
     body.inertia = Vector3d(2.0, 2.0, 0.7).asDiagonal();

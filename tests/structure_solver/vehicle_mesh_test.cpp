@@ -23,7 +23,9 @@ constexpr std::array<Head, 4> heads = {{{"ogive", HeadShape::ogive, 0.01},
                                         {"ellipsoid", HeadShape::ellipsoid, 0.01},
                                         {"blunt ellipsoid", HeadShape::ellipsoid, 0.003}}};
 
-Meridian outline_of(const Head& head) { return Meridian(head.shape, head.length, diameter, length); }
+Meridian outline_of(const Head& head) {
+  return Meridian(head.shape, head.length, diameter, length);
+}
 
 VehicleMesh mesh_of(const Head& head, double wall, double size, Portion portion) {
   VehicleMeshOptions options;
@@ -83,8 +85,7 @@ TEST(VehicleMesh, VolumeConvergesToTheExactShapeWithTheSquareOfTheSize) {
   for (const Head& head : heads)
     for (const double wall : {0.0, 0.65e-3}) {
       const Meridian outline = outline_of(head);
-      const double exact =
-          enclosed_volume(outline) - (wall > 0 ? enclosed_volume(InnerOutline(outline, wall)) : 0);
+      const double exact = enclosed_volume(outline) - (wall > 0 ? enclosed_volume(InnerOutline(outline, wall)) : 0);
       const auto error = [&](double size) {
         return 1 - 4 * mesh_volume(mesh_of(head, wall, size, Portion::quarter).hexahedra) / exact;
       };
@@ -97,9 +98,7 @@ TEST(VehicleMesh, VolumeConvergesToTheExactShapeWithTheSquareOfTheSize) {
 
 TEST(VehicleMesh, QuarterHalfAndFullAreOneToTwoToFour) {
   for (const double wall : {0.0, 0.65e-3}) {
-    const auto volume = [&](Portion portion) {
-      return mesh_volume(mesh_of(heads[0], wall, 1e-3, portion).hexahedra);
-    };
+    const auto volume = [&](Portion portion) { return mesh_volume(mesh_of(heads[0], wall, 1e-3, portion).hexahedra); };
     const double quarter = volume(Portion::quarter);
     EXPECT_NEAR(volume(Portion::half) / quarter, 2, 1e-13);
     EXPECT_NEAR(volume(Portion::full) / quarter, 4, 1e-13);
@@ -112,8 +111,7 @@ TEST(VehicleMesh, FullHullIsClosedAndOutward) {
       const VehicleMesh mesh = mesh_of(head, wall, 1e-3, Portion::full);
       std::map<std::pair<std::int32_t, std::int32_t>, int> edges;
       for (std::size_t t = 0; t < mesh.hull_triangles.size(); t += 3)
-        for (int k = 0; k < 3; ++k)
-          ++edges[{mesh.hull_triangles[t + k], mesh.hull_triangles[t + (k + 1) % 3]}];
+        for (int k = 0; k < 3; ++k) ++edges[{mesh.hull_triangles[t + k], mesh.hull_triangles[t + (k + 1) % 3]}];
       for (const auto& [edge, count] : edges) {
         EXPECT_EQ(count, 1);
         EXPECT_EQ(edges.count({edge.second, edge.first}), 1u) << "every edge is walked once each way";

@@ -14,9 +14,9 @@ namespace {
 
 /// Force on the hull's vertices near the nose at a time; shares are of the modelled part.
 struct Pulse {
-  double force = 0, duration = 0;          // N of the whole body, s
+  double force = 0, duration = 0;  // N of the whole body, s
   std::array<double, 3> direction = {0, 0, -1};
-  double depth = 4e-3;                     // m, loaded part of the nose
+  double depth = 4e-3;  // m, loaded part of the nose
   double at(double time) const {
     return time < duration ? force * std::pow(std::sin(std::numbers::pi * time / duration), 2) : 0;
   }

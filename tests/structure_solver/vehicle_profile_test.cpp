@@ -25,8 +25,8 @@ TEST(VehicleProfile, OgiveEnclosesTheClosedFormOfItsArc) {
   const double h = 0.01, big = (a * a + h * h) / (2 * a), shift = big - a;
   // Integral of (sqrt(R^2 - x^2) - shift)^2 from 0 to h.
   const double root = std::sqrt(big * big - h * h);
-  const double head = pi * (big * big * h - h * h * h / 3 + shift * shift * h -
-                            shift * (h * root + big * big * std::asin(h / big)));
+  const double head =
+      pi * (big * big * h - h * h * h / 3 + shift * shift * h - shift * (h * root + big * big * std::asin(h / big)));
   EXPECT_NEAR(enclosed_volume(Meridian(HeadShape::ogive, h, 2 * a, length)) / (head + pi * a * a * (length - h)), 1,
               1e-12);
 }
