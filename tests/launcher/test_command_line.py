@@ -3,11 +3,12 @@ import os
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 from pathlib import Path
 from unittest import mock
 
-from launcher import command_line, scene, setup_packages
+from launcher import Failure, build, command_line, scene, setup_packages
 from launcher.commands import list_command, test_command
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -58,6 +59,55 @@ class Scenes(unittest.TestCase):
         self.assertTrue(files)
         for file in files:
             self.assertEqual(scene.find(list_command.command_word(file)), file)
+
+
+class Build(unittest.TestCase):
+    """ninja is real, the rules are invented."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        where = mock.patch.object(build, "build_folder", lambda preset: self.folder / preset)
+        where.start()
+        self.addCleanup(where.stop)
+        (self.folder / "release").mkdir()
+
+    def ninja(self, command: str):
+        rule = f"rule compile\n  command = {command}\nbuild program: compile\n"
+        (self.folder / "release" / "build.ninja").write_text(rule)
+        build.run_ninja(["program"], "release")
+
+    def test_failure_shows_the_compilers_words_and_not_its_command(self):
+        with self.assertRaises(Failure) as failed:
+            self.ninja("echo 'a.cpp:3:7: error: no semicolon'; : " + "-I/a/long/path " * 40 + " -o program; exit 1")
+        self.assertIn("a.cpp:3:7: error: no semicolon", str(failed.exception))
+        self.assertNotIn("-I/a/long/path", str(failed.exception))
+
+    def test_success_is_silent_and_kept_in_the_log(self):
+        self.ninja("echo compiled > program")
+        self.assertIn("[1/1]", (self.folder / "release" / "build.log").read_text())
+
+    def test_two_at_a_time_wait_for_each_other(self):
+        done = []
+        with mock.patch.object(build, "say", done.append):
+            with build.locked("release"):
+                other = threading.Thread(target=lambda: build.locked("release").__enter__() and None)
+                other.start()
+                other.join(0.3)
+                self.assertTrue(other.is_alive())
+            other.join(5)
+        self.assertFalse(other.is_alive())
+        self.assertEqual(done, ["waiting for another build to end"])
+
+    def test_a_moved_checkout_is_configured_anew(self):
+        (self.folder / "release" / "build.ninja").touch()
+        cache = self.folder / "release" / "CMakeCache.txt"
+        cache.write_text("CMAKE_HOME_DIRECTORY:INTERNAL=/somewhere/else\n")
+        self.assertTrue(build.needs_configuring("release"))
+        self.assertFalse(cache.exists())
+        cache.write_text(f"CMAKE_HOME_DIRECTORY:INTERNAL={ROOT}\n")
+        self.assertFalse(build.needs_configuring("release"))
 
 
 class SetUp(unittest.TestCase):
