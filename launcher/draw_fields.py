@@ -8,7 +8,7 @@ import numpy
 from matplotlib import pyplot
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import EllipseCollection, PolyCollection
-from matplotlib.colors import Normalize
+from matplotlib.colors import Normalize, SymLogNorm
 from matplotlib.ticker import MaxNLocator
 from scipy.spatial import ConvexHull
 
@@ -116,7 +116,8 @@ def draw_sheet(sections: list[Section], view: View, path: Path, what: str) -> Pa
         draw_section(ax, section, view, what)
     for ax in axes[:, 0]:
         ax.set_ylabel("z  [mm]")
-        ax.yaxis.set_major_locator(MaxNLocator(max(2, int(2.2 * panel_height)), prune="both"))
+        ticks = min(9, max(2, int(2.2 * panel_height)))
+        ax.yaxis.set_major_locator(MaxNLocator(ticks, prune="both", steps=[1, 2, 5, 10]))
     for ax in axes[-1]:
         ax.set_xlabel("x  [mm]")
     legends(figure, sections, view, what, height)
@@ -144,5 +145,12 @@ def legends(figure: pyplot.Figure, sections: list[Section], view: View, what: st
     for number, (mappable, label) in enumerate(bars):
         room = 0.92 / len(bars)
         ax = figure.add_axes([0.06 + number * room, 0.42 / height, room - 0.06, 0.10 / height])
-        bar = figure.colorbar(mappable, cax=ax, orientation="horizontal", label=label)
+        ticks = decades(view.pressure) if what == "pressure" else None
+        bar = figure.colorbar(mappable, cax=ax, orientation="horizontal", label=label, ticks=ticks)
         bar.outline.set_visible(False)
+
+
+def decades(scale: SymLogNorm) -> list[float]:
+    """Ticks of a symmetric logarithmic scale: zero and the powers of ten outside the linear part."""
+    powers = 10.0 ** numpy.arange(round(numpy.log10(scale.linthresh)), numpy.log10(scale.vmax) + 1e-9)
+    return [*-powers[::-1], 0.0, *powers]

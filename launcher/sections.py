@@ -67,7 +67,16 @@ def load_section(run: Path, time: float, tolerance: float) -> Section:
                 row = fields.grid_row(frames["fluid"], lines, name)
                 if row is not None:
                     section.fluid[name] = row
+            share_of_fluid(section.fluid)
     return section
+
+
+def share_of_fluid(fluid: dict[str, numpy.ndarray]) -> None:
+    """Fractions of a cell's volume become shares of the part that no solid fills: no pale rim about the bodies."""
+    if "water_fraction" in fluid and "solid_fraction" in fluid:
+        free = 1 - fluid["solid_fraction"]
+        share = numpy.clip(fluid["water_fraction"] / numpy.maximum(free, 1e-9), 0, 1)
+        fluid["water_fraction"] = numpy.where(free > 1e-6, share, fluid["water_fraction"])
 
 
 def polygons(frame: fields.Frame, name: str) -> tuple[numpy.ndarray, numpy.ndarray]:
@@ -105,8 +114,14 @@ def make_view(scene: dict, sections: list[Section]) -> View:
     else:
         half, low, high = fluid["length"] / 2, fluid["bottom"], fluid["top"]
     largest = max(pressures, default=0.0)
-    pressure = SymLogNorm(linthresh=max(largest / 300, 1.0), vmin=-largest, vmax=largest, base=10) if largest else None
-    return View(scene, (-half, half), (low, high), Normalize(0, max(stresses, default=1.0) or 1.0), pressure)
+    return View(scene, (-half, half), (low, high), Normalize(0, max(stresses, default=1.0) or 1.0),
+                pressure_scale(largest) if largest > 0 else None)
+
+
+def pressure_scale(largest: float) -> SymLogNorm:
+    """Logarithmic on both sides over two to three decades below the largest value, linear between."""
+    linear = 10.0 ** numpy.floor(numpy.log10(largest / 200))
+    return SymLogNorm(linthresh=linear, vmin=-largest, vmax=largest, base=10)
 
 
 def whole_view(view: View, section: Section) -> View:
