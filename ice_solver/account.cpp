@@ -21,7 +21,7 @@ Account account_of(const IceBody& ice) {
   account.boundary_flux = elements.boundary_flux;
   account.gravity_work = books.node_gravity_work.total + books.particle_gravity_work.total;
   account.external_work = elements.external_work - books.node_pair_work.total - books.node_gravity_work.total +
-                          books.particle_load_work.total;
+                          books.particle_load_work.total + books.prescribed_work;
   account.step_change = elements.step_change + books.particle_step_change.total;
   account.momentum = books.momentum;
   for (std::size_t c = 0; c < 3; ++c) account.boundary_impulse[c] = books.boundary_impulse[c].total;

@@ -67,7 +67,14 @@ BendingRig make_bending_rig(IceBody& beam, double support_span, double load_span
 
 void move_rollers(BendingRig& rig, IceBody& beam, double time, double dt) {
   const double velocity = rig.speed * smooth_ramp(time + 0.5 * dt, rig.ramp_time);
-  for (const std::int32_t n : rig.loads) beam.solid.velocities[3 * static_cast<std::size_t>(n) + 2] = -velocity;
+  for (const std::int32_t node : rig.loads) {
+    const auto n = static_cast<std::size_t>(node);
+    double& v = beam.solid.velocities[3 * n + 2];
+    // The account has opened this step with the old velocity: kinetic energy, and half a step of the reaction's work.
+    beam.books.prescribed_work += 0.5 * beam.solid.masses[n] * (velocity * velocity - v * v) -
+                                  0.5 * dt * beam.solid.internal_force[3 * n + 2] * (-velocity - v);
+    v = -velocity;
+  }
   rig.deflection += dt * velocity;
 }
 

@@ -57,6 +57,7 @@ struct IceBooks {
   double particle_kinetic = 0;
   double removed_since_step = 0;                    ///< kinetic energy of elements converted after the last step
   Trapezoid particle_step_change;
+  double prescribed_work = 0;                       ///< kinetic energy given to nodes whose velocity is set from outside
   Trapezoid particle_heat;                          ///< taken from the motion by the artificial viscosity
   Trapezoid node_pair_work, node_gravity_work, particle_gravity_work, particle_load_work;
   std::array<Trapezoid, 3> boundary_impulse;        ///< of symmetry planes, held and damped nodes
