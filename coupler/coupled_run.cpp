@@ -37,7 +37,7 @@ struct Run {
   LedgerFile ledger_file;
   std::array<WorkMeter, body_count> work;
   contact::PenaltyContact contact;
-  bool contact_ready = false;
+  bool contact_ready = false, topology_changed = false;
   std::optional<OverlapExchange> overlap;
   std::optional<Monitor> monitor;
   double planned_step = 0, next_frame_time = 0;
@@ -94,12 +94,6 @@ void begin(Run& run, const std::vector<std::string>& names) {
   run.limits.solid_factor = run.scene.run.step_factor;
   run.limits.fluid_factor = run.scene.run.fluid_step_factor;
   run.limits.longest_span = run.scene.run.frame_interval / 100;
-  if (run.conversation.fluid) run.limits.lag_limit = lag_limit(run.conversation, run.scene);
-  plan_next_span(run);
-  run.keeper.step = run.planned_step;
-  spdlog::info("first window {:.3e} s, {} windows in the first span; stable: solids {:.3e} s, fluid {:.3e} s, lag {:.3e} s",
-               run.keeper.step, run.keeper.windows_left, run.limits.solid_stable, run.limits.fluid_stable,
-               run.limits.lag_limit);
   if (run.conversation.fluid) {
     FluidSide& fluid = *run.conversation.fluid;
     run.overlap.emplace(fluid, run.scene.effect("debris_displacement"));
@@ -109,11 +103,17 @@ void begin(Run& run, const std::vector<std::string>& names) {
     exchange::Message message("begin");
     message.header["time"] = 0.0;
     add_overlap(message, cells);
+    run.limits.lag_limit = lag_limit(run.conversation, cells, run.scene);
     run.conversation.hub.send(fluid.name, std::move(message));
     const exchange::Message answer = run.conversation.hub.receive(fluid.name, "pressure");
     fluid.stable_step = answer.header.at("stable_step").get<double>();
     fluid.account.set_initial(answer);
   }
+  plan_next_span(run);
+  run.keeper.step = run.planned_step;
+  spdlog::info("first window {:.3e} s, {} windows in the first span; stable: solids {:.3e} s, fluid {:.3e} s, lag {:.3e} s",
+               run.keeper.step, run.keeper.windows_left, run.limits.solid_stable, run.limits.fluid_stable,
+               run.limits.lag_limit);
   run.monitor.emplace(run.scene, run.folder, run.conversation);
   begin_solids(run.conversation, run.keeper.step);
 }
@@ -159,6 +159,9 @@ void exchange_with_fluid(Run& run, bool finish, long frame) {
   const WallPressure at_start = read_pressure(answer, "pressure.previous_", run.overlap->before().cell.size());
   const WallPressure at_end = read_pressure(answer, "pressure.", cells.cell.size());
   run.overlap->give_impulses(run.conversation, at_start, at_end, length, run.ledger);
+  // Where elements broke away, lighter nodes meet the water now.
+  if (run.topology_changed) run.limits.lag_limit = lag_limit(run.conversation, cells, run.scene);
+  run.topology_changed = false;
   run.ledger.fluid_reported = {fluid.account.change("impulse_vehicle_z"), fluid.account.change("impulse_ice_z")};
   run.monitor->note_pressure(cells, at_end);
 }
@@ -195,8 +198,10 @@ void advance_window(Run& run) {
     receive_surfaces(run.conversation, run.keeper.window);
   }
   run.keeper.time += run.keeper.step;
-  for (const SolidSide& side : run.conversation.solids)
+  for (const SolidSide& side : run.conversation.solids) {
     run.work[static_cast<int>(side.body)].settle(side, run.ledger);
+    run.topology_changed = run.topology_changed || side.topology_changed;
+  }
   find_contact(run);
 
   long frame = -1;

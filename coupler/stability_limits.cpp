@@ -8,19 +8,8 @@
 namespace polynya::coupler {
 namespace {
 
-/// Within half a cell of an outer side of the grid. Planes of symmetry (a grid that starts at 0) do not count.
-bool beside_wall(const contact::Vector3& p, const geometry::GridLines& grid) {
-  for (int axis = 0; axis < 2; ++axis) {
-    const std::vector<double>& line = grid.lines[static_cast<std::size_t>(axis)];
-    if (p[axis] > line.back() - 0.5 * grid.width(axis, grid.cells(axis) - 1)) return true;
-    if (line.front() < 0 && p[axis] < line.front() + 0.5 * grid.width(axis, 0)) return true;
-  }
-  return false;
-}
-
-}  // namespace
-
-double least_areal_mass(const SolidSide& side, const geometry::GridLines& grid) {
+/// Mass per area of every vertex of the surface, 0 for particles.
+std::vector<double> vertex_areal_mass(const SolidSide& side) {
   using contact::operator-;
   std::vector<double> area(side.vertices(), 0.0);
   for (std::size_t t = 0; t < side.triangles.size() / 3; ++t) {
@@ -30,19 +19,51 @@ double least_areal_mass(const SolidSide& side, const geometry::GridLines& grid) 
     const double third = contact::norm(contact::cross(b - a, c - a)) / 6;
     for (int i = 0; i < 3; ++i) area[v[i]] += third;
   }
+  for (std::size_t v = 0; v < area.size(); ++v) area[v] = area[v] > 0 ? side.masses[v] / area[v] : 0.0;
+  return area;
+}
+
+/// In the last layer of cells along an outer side of the grid. Planes of symmetry (lines that start at 0) do not count.
+bool on_outer_side(const geometry::GridLines& grid, std::int64_t cell) {
+  const auto position = grid.cell_position(cell);
+  for (int axis = 0; axis < 2; ++axis) {
+    if (position[axis] == grid.cells(axis) - 1) return true;
+    if (position[axis] == 0 && grid.lines[axis].front() < 0) return true;
+  }
+  return false;
+}
+
+double smallest_face(const geometry::GridLines& grid, std::int64_t cell) {
+  const auto p = grid.cell_position(cell);
+  const double x = grid.width(0, p[0]), y = grid.width(1, p[1]), z = grid.width(2, p[2]);
+  return std::min({x * y, y * z, z * x});
+}
+
+}  // namespace
+
+double least_areal_mass(const SolidSide& side, const geometry::CutCells& cut, const geometry::GridLines& grid) {
+  const std::vector<double> areal_mass = vertex_areal_mass(side);
+  std::vector<double> area(cut.cell.size(), 0.0), mass(cut.cell.size(), 0.0);
+  for (const geometry::WallPiece& piece : cut.pieces) {
+    if (piece.body != static_cast<std::int32_t>(side.body)) continue;
+    const double size = contact::norm(piece.area);
+    const std::int32_t* v = &side.triangles[3 * static_cast<std::size_t>(piece.triangle)];
+    area[piece.entry] += size;
+    for (int i = 0; i < 3; ++i) mass[piece.entry] += size * piece.weights[i] * areal_mass[v[i]];
+  }
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t v = 0; v < side.vertices(); ++v)
-    if (area[v] > 0 && !beside_wall(contact::row(side.positions, v), grid))
-      least = std::min(least, side.masses[v] / area[v]);
+  for (std::size_t e = 0; e < cut.cell.size(); ++e)
+    if (area[e] > 0.1 * smallest_face(grid, cut.cell[e]) && !on_outer_side(grid, cut.cell[e]))
+      least = std::min(least, mass[e] / area[e]);
   return least;
 }
 
-double lag_limit(const Conversation& conversation, const scene::Scene& scene) {
+double lag_limit(const Conversation& conversation, const geometry::CutCells& cut, const scene::Scene& scene) {
   const scene::MaterialCard& water = scene.material(scene.fluid->water);
   const double impedance = water.values.at("density") * water.values.at("sound_speed");
   double least = std::numeric_limits<double>::infinity();
   for (const SolidSide& side : conversation.solids)
-    least = std::min(least, least_areal_mass(side, conversation.fluid->grid));
+    least = std::min(least, least_areal_mass(side, cut, conversation.fluid->grid));
   return 0.5 * least / impedance;
 }
 

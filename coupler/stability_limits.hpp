@@ -4,11 +4,13 @@
 
 namespace polynya::coupler {
 
-/// Longest span that lagged fluid loads bear: rho_f c dt < 0.5 x areal mass of the lightest surface node layer
-/// (REFERENCE 9). Vertices on walls of the fluid's grid do not count: they are not wetted. s
-double lag_limit(const Conversation& conversation, const scene::Scene& scene);
+/// Smallest areal mass of the node layer behind the wall of a cut cell, kg/m^2: the mean of (vertex mass / vertex area)
+/// over the pieces of wall in the cell, because one pressure acts on all of them. Cells with little wall (under a tenth
+/// of their smallest face) and cells along the grid's outer sides do not count.
+double least_areal_mass(const SolidSide& side, const geometry::CutCells& cut, const geometry::GridLines& grid);
 
-/// Smallest mass per wetted area over the vertices of a surface, kg/m^2.
-double least_areal_mass(const SolidSide& side, const geometry::GridLines& grid);
+/// Longest span that lagged fluid loads bear: rho_f c dt < 0.5 x areal mass of the lightest surface node layer
+///, s.
+double lag_limit(const Conversation& conversation, const geometry::CutCells& cut, const scene::Scene& scene);
 
 }  // namespace polynya::coupler
