@@ -18,6 +18,7 @@ struct Account {
   std::array<double, 2> wall_work{};  ///< into vehicle and ice
   double swept_defect = 0;       ///< pressure times the volume that the change of geometry and the wall motion differ by
   double debris_work = 0;        ///< pressure times the change of debris volume
+  double released_room = 0;      ///< volume that breaking solids left at once, m^3
   std::array<double, 3> momentum{};
   std::array<std::array<double, 3>, 2> body_impulse{};  ///< to vehicle and ice (absolute pressure)
   std::array<double, 3> boundary_impulse{};             ///< to the surroundings: open boundaries, walls, what flowed out

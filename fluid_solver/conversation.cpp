@@ -89,13 +89,16 @@ void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant&
   coupler.send(make_ready(fluid));
   Overlap overlap = read_overlap(coupler.receive("begin"));
   start(scene, fluid, overlap);
-  output.start(fluid);
   coupler.send(make_pressure(fluid, overlap));
-  output.write_frame(fluid, 0);
   for (;;) {
     const exchange::Message span = coupler.receive("span");
     Overlap next = read_overlap(span);
     const double dt = positive_span(span, fluid.time);
+    if (fluid.steps == 0 && scene.fluid->start == "potential_flow") {
+      const int iterations = adapt_potential_flow(fluid, overlap, next, scene.fluid->waterline);
+      spdlog::info("potential flow: {} more iterations for the first step", iterations);
+    }
+    if (fluid.steps == 0) output.start(fluid);
     step(fluid, dt, next);
     exchange::Message answer = make_pressure(fluid, next);
     answer.header["span"] = span.header.value("span", 0L);

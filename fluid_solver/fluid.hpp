@@ -115,6 +115,10 @@ void fill_hydrostatic(Fluid& fluid, const Overlap& overlap, double waterline, st
 /// belongs to it. Call after fill_hydrostatic. Returns the iterations of the projection.
 int start_potential_flow(Fluid& fluid);
 
+/// Fits a potential flow just started at `now` to the overlap a moment later, before the first step: a wall that lies in
+/// a plane of faces leaves that plane at once, and only then its edges meet the nodes there. Leaves the fluid at `now`.
+int adapt_potential_flow(Fluid& fluid, const Overlap& now, const Overlap& soon, double waterline);
+
 /// Advances by dt to the time at which the solids are as `overlap` says. Throws FluidError at a state without meaning.
 void step(Fluid& fluid, double dt, const Overlap& overlap);
 

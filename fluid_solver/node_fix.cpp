@@ -1,6 +1,12 @@
-// Nodes that solid has nearly covered have next to no mass and would fly off: they follow their neighbours, and the
-// difference of momentum goes to the body (OVERLAP 13). Nodes inside the solid take the velocity of its wall.
+// Nodes at and inside solids. A node that solid has nearly covered has next to no mass and would fly off: it follows its
+// neighbours (OVERLAP 13). A node inside takes the velocity of the wall. Where all cells on one side of a node are solid,
+// the wall lies in or before the plane of those faces: closed faces exert no force on the node, so it takes the wall's
+// normal velocity; left alone it would meet the wall with a jolt as soon as the wall moves off the plane (OVERLAP 8). The
+// difference of momentum goes to the body.
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
 
 #include "fluid_solver/phases.hpp"
 
@@ -9,53 +15,109 @@ namespace {
 
 constexpr double covered = 0.02;
 
-std::array<double, 3> wall_velocity(const WallPiece& wall) {
-  for (const auto& [area, velocity] : {std::pair{wall.area[0], wall.velocity[0]}, std::pair{wall.area[1], wall.velocity[1]}}) {
-    if (area[0] != 0 || area[1] != 0 || area[2] != 0) return velocity;
+struct NodeAtWall {
+  std::ptrdiff_t node;
+  const WallPiece* wall;
+};
+
+std::vector<NodeAtWall> nodes_at_walls(const Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  std::vector<NodeAtWall> nodes;
+  nodes.reserve(8 * fluid.after.walls.size());
+  for (const WallPiece& wall : fluid.after.walls) {
+    for (int corner = 0; corner < 8; ++corner) {
+      nodes.push_back({wall.cell + (corner & 1) + (corner & 2 ? grid.sy : 0) + (corner & 4 ? grid.sz : 0), &wall});
+    }
   }
-  return wall.velocity[0];
+  std::sort(nodes.begin(), nodes.end(), [](const NodeAtWall& a, const NodeAtWall& b) {
+    return a.node != b.node ? a.node < b.node : a.wall < b.wall;
+  });
+  return nodes;
+}
+
+/// Velocity of the wall along an axis: of the piece around the node with the largest area that way.
+std::optional<double> wall_speed(std::span<const NodeAtWall> around, int axis) {
+  double largest = 0;
+  std::optional<double> speed;
+  for (const NodeAtWall& at : around) {
+    for (int body = 0; body < 2; ++body) {
+      const double area = std::abs(at.wall->area[body][axis]);
+      if (area <= largest) continue;
+      largest = area;
+      speed = at.wall->velocity[body][axis];
+    }
+  }
+  return speed;
+}
+
+/// True if all cells of the grid on one side of the node hold no fluid, and some on the other side do.
+bool solid_on_one_side(const Fluid& fluid, std::ptrdiff_t node, int axis) {
+  const Grid& grid = fluid.grid;
+  int cells[2] = {0, 0}, filled[2] = {0, 0};
+  for (int corner = 0; corner < 8; ++corner) {
+    const std::ptrdiff_t c = node - (corner & 1) - (corner & 2 ? grid.sy : 0) - (corner & 4 ? grid.sz : 0);
+    if (!grid.inside(c)) continue;
+    const int side = corner >> axis & 1;
+    ++cells[side];
+    filled[side] += fluid.after.volume[c] > 0;
+  }
+  return cells[0] > 0 && cells[1] > 0 && (filled[0] == 0) != (filled[1] == 0);
+}
+
+std::optional<std::array<double, 3>> mean_of_neighbours(const Fluid& fluid, std::ptrdiff_t n) {
+  const std::vector<double>& free = fluid.after.node_fraction;
+  double weight = 0;
+  std::array<double, 3> sum{};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const std::ptrdiff_t other : {n - fluid.grid.stride(axis), n + fluid.grid.stride(axis)}) {
+      if (free[other] < covered || fluid.node_mass[other] <= 0) continue;
+      weight += free[other];
+      for (int d = 0; d < 3; ++d) sum[d] += free[other] * fluid.velocity[d][other];
+    }
+  }
+  if (weight <= 0) return {};
+  for (double& component : sum) component /= weight;
+  return sum;
 }
 
 }  // namespace
 
 void fix_covered_nodes(Fluid& fluid) {
-  const Grid& grid = fluid.grid;
-  const std::vector<double>& free = fluid.after.node_fraction;
-  std::vector<std::pair<std::ptrdiff_t, const WallPiece*>> nodes;
-  for (const WallPiece& wall : fluid.after.walls) {
-    for (int corner = 0; corner < 8; ++corner) {
-      const std::ptrdiff_t n = wall.cell + (corner & 1) + (corner & 2 ? grid.sy : 0) + (corner & 4 ? grid.sz : 0);
-      if (free[n] < covered) nodes.emplace_back(n, &wall);
+  const std::vector<NodeAtWall> nodes = nodes_at_walls(fluid);
+  struct Change {
+    std::ptrdiff_t node;
+    std::array<double, 3> velocity;
+  };
+  std::vector<Change> changes;
+  for (std::size_t from = 0; from < nodes.size();) {
+    std::size_t to = from;
+    while (to < nodes.size() && nodes[to].node == nodes[from].node) ++to;
+    const std::span<const NodeAtWall> around(nodes.data() + from, to - from);
+    const std::ptrdiff_t n = nodes[from].node;
+    from = to;
+    const bool hidden = fluid.after.node_fraction[n] < covered;
+    Change change{n, {fluid.velocity[0][n], fluid.velocity[1][n], fluid.velocity[2][n]}};
+    bool changed = hidden;
+    if (hidden) {
+      const auto mean = mean_of_neighbours(fluid, n);
+      for (int d = 0; d < 3; ++d) change.velocity[d] = mean ? (*mean)[d] : wall_speed(around, d).value_or(around[0].wall->velocity[0][d]);
     }
-  }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.first == b.first; }), nodes.end());
-  std::vector<std::array<double, 3>> velocity(nodes.size());
-  for (std::size_t m = 0; m < nodes.size(); ++m) {
-    const std::ptrdiff_t n = nodes[m].first;
-    double weight = 0;
-    std::array<double, 3> sum{};
     for (int axis = 0; axis < 3; ++axis) {
-      for (const std::ptrdiff_t other : {n - grid.stride(axis), n + grid.stride(axis)}) {
-        if (free[other] < covered || fluid.node_mass[other] <= 0) continue;
-        weight += free[other];
-        for (int d = 0; d < 3; ++d) sum[d] += free[other] * fluid.velocity[d][other];
+      if (!solid_on_one_side(fluid, n, axis)) continue;
+      if (const auto speed = wall_speed(around, axis)) {
+        change.velocity[axis] = *speed;
+        changed = true;
       }
     }
-    if (weight > 0) {
-      for (int d = 0; d < 3; ++d) velocity[m][d] = sum[d] / weight;
-    } else {
-      velocity[m] = wall_velocity(*nodes[m].second);
-    }
+    if (changed) changes.push_back(change);
   }
-  for (std::size_t m = 0; m < nodes.size(); ++m) {
-    const std::ptrdiff_t n = nodes[m].first;
+  for (const auto& [n, velocity] : changes) {
     const double mass = fluid.node_mass[n];
     for (int d = 0; d < 3; ++d) {
       double& u = fluid.velocity[d][n];
-      fluid.account.node_fix_impulse[d] += mass * (u - velocity[m][d]);
-      fluid.account.node_fix += 0.5 * mass * (u * u - velocity[m][d] * velocity[m][d]);
-      u = velocity[m][d];
+      fluid.account.node_fix_impulse[d] += mass * (u - velocity[d]);
+      fluid.account.node_fix += 0.5 * mass * (u * u - velocity[d] * velocity[d]);
+      u = velocity[d];
     }
   }
 }

@@ -20,6 +20,11 @@ void mix_groups(Fluid& fluid);
 /// face_coefficients.cpp
 std::vector<StepWall> join_walls(const CutGeometry& before, const CutGeometry& after);
 void update_face_coefficients(Fluid& fluid);
+
+/// release.cpp: where a solid breaks away, its room is free at once. The fluid expands into it without work (it meets
+/// nothing that it could push), so the room counts as free from the beginning of the step. Returns it, m^3.
+double release_room(const Grid& grid, CutGeometry& before, const CutGeometry& after, const std::vector<StepWall>& walls, double dt);
+
 /// Adds the correction's volumes to the change of volume that cells feel, and later to what flows through faces.
 void apply_to_cells(Fluid& fluid, const VolumeCorrection& correction);
 void apply_to_faces(Fluid& fluid, const VolumeCorrection& correction, double dt);

@@ -16,7 +16,7 @@ constexpr int most_iterations = 3000;
 /// A member of a group that is at least so full keeps its own impulse: the step's prediction also holds the members of a
 /// group to the walls' motion one by one, and a start that ignores it would begin with a jolt.
 constexpr double own_fill = 0.01;
-constexpr double tolerance = 1e-6;  ///< of the norm of the initial rates of volume
+constexpr double tolerance = 1e-6;  ///< of the norm of the walls' rates of volume
 
 class Projection {
  public:
@@ -33,7 +33,7 @@ class Projection {
     precondition(residual, z);
     direction = z;
     double rho = dot(residual, z);
-    const double goal = tolerance * tolerance * dot(residual, residual);
+    const double goal = tolerance * tolerance * std::max(wall_rates(), 1e-300);
     int iteration = 0;
     for (; iteration < most_iterations && rho > 0 && dot(residual, residual) > goal; ++iteration) {
       apply(direction, image);
@@ -139,6 +139,19 @@ class Projection {
     }
     gather_groups(out);
     for (std::size_t c = 0; c < out.size(); ++c) out[c] *= unknown_[c];
+  }
+
+  /// Sum of squares of the rates of volume of the walls' motion: what residuals are compared with.
+  double wall_rates() const {
+    double sum = 0;
+    for (const WallPiece& wall : f_.after.walls) {
+      double rate = 0;
+      for (int body = 0; body < 2; ++body) {
+        for (int d = 0; d < 3; ++d) rate += wall.area[body][d] * wall.velocity[body][d];
+      }
+      sum += rate * rate;
+    }
+    return sum;
   }
 
   /// Velocity that an impulse per area in the cells gives to the nodes.
@@ -250,10 +263,32 @@ void add_bernoulli_pressure(Fluid& fluid) {
   });
 }
 
+int project(Fluid& fluid) {
+  // Closed faces hand no impulse to nodes in their plane, so these can be set beforehand.
+  fix_covered_nodes(fluid);
+  const int iterations = Projection(fluid).run();
+  fix_covered_nodes(fluid);
+  fluid.account = {};
+  return iterations;
+}
+
 }  // namespace
 
 int start_potential_flow(Fluid& fluid) {
-  const int iterations = Projection(fluid).run();
+  const int iterations = project(fluid);
+  add_bernoulli_pressure(fluid);
+  finish_filling(fluid);
+  return iterations;
+}
+
+int adapt_potential_flow(Fluid& fluid, const Overlap& now, const Overlap& soon, double waterline) {
+  auto velocity = fluid.velocity;
+  fill_hydrostatic(fluid, soon, waterline);
+  fluid.velocity = std::move(velocity);
+  const int iterations = project(fluid);
+  velocity = fluid.velocity;
+  fill_hydrostatic(fluid, now, waterline);
+  fluid.velocity = std::move(velocity);
   add_bernoulli_pressure(fluid);
   finish_filling(fluid);
   return iterations;

@@ -14,6 +14,7 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     fluid.after.set(fluid.grid, fluid.setup.boundary, overlap);
     fluid.groups = find_groups(fluid.grid, fluid.before, fluid.after, fluid.label);
     walls = join_walls(fluid.before, fluid.after);
+    account.released_room += release_room(fluid.grid, fluid.before, fluid.after, walls, dt);
     correction = correct_volumes(fluid.grid, fluid.before, fluid.after, walls, dt, fluid.label);
     fluid.correction_iterations = correction.iterations;
     update_face_coefficients(fluid);
