@@ -156,6 +156,11 @@ void exchange_with_fluid(Run& run, bool finish, long frame) {
   const exchange::Message answer = run.conversation.hub.receive(fluid.name, "pressure");
   fluid.stable_step = answer.header.at("stable_step").get<double>();
   fluid.account.update(answer);
+  if (run.keeper.span == 0) {
+    // The first span fits the flow of the start to the walls' first motion: no loads come of it, the books open after it.
+    fluid.account.set_initial(answer);
+    return;
+  }
   const WallPressure at_start = read_pressure(answer, "pressure.previous_", run.overlap->before().cell.size());
   const WallPressure at_end = read_pressure(answer, "pressure.", cells.cell.size());
   run.overlap->give_impulses(run.conversation, at_start, at_end, length, run.ledger);

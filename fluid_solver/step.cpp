@@ -43,9 +43,9 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
   }
   {
     const auto lap = fluid.watch.lap("remap");
-    book_boundary_flow(fluid, dt);
     apply_to_faces(fluid, correction, dt);
     remap_cells(fluid, dt);
+    book_boundary_flow(fluid, dt);
     mix_groups(fluid);
     copy_face_mass_to_ghosts(fluid);
     copy_velocity_to_ghosts(fluid);

@@ -65,7 +65,7 @@ Decision friction(const Scene& scene) {
 Decision debris_displacement(const Scene& scene) {
   if (!scene.fluid) return impossible("the scene has no fluid");
   if (!scene.effect("conversion")) return impossible("no particles arise without conversion");
-  return {true, "particles displace water and air"};
+  return {false, "particles do not feel the water they would push: room of broken ice goes to the water at once"};
 }
 
 Decision non_reflecting(const Scene& scene) {

@@ -18,7 +18,7 @@ TEST(Effects, EveryEffectIsDecidedWithAReason) {
 TEST(Effects, TheBaseSceneHasAllThatThisVersionOffers) {
   const Scene scene = base_scene();
   for (const std::string name : {"fluid", "deformable_vehicle", "ice_failure", "conversion", "cavitation", "gravity",
-                                 "friction", "debris_displacement", "non_reflecting_boundaries", "symmetry"})
+                                 "friction", "non_reflecting_boundaries", "symmetry"})
     EXPECT_TRUE(scene.effect(name)) << name;
 }
 
@@ -31,6 +31,11 @@ TEST(Effects, WhatDoesNotExistYetIsOffAndCannotBeAskedFor) {
     EXPECT_NE(message_of_settings({"effects." + name + "=on"}).find("not available in this version"),
               std::string::npos);
   }
+}
+
+TEST(Effects, DisplacementByDebrisIsThereForThoseWhoAsk) {
+  EXPECT_FALSE(base_scene().effect("debris_displacement"));
+  EXPECT_TRUE(base_scene({"effects.debris_displacement=on"}).effect("debris_displacement"));
 }
 
 TEST(Effects, FluidOffLeavesNoFluidNoWaterAndNoParticipant) {
