@@ -1,0 +1,156 @@
+// Bodies that move through the grid: nothing is created, nothing lost, and uniform motion is no motion.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "fluid_solver/fluid.hpp"
+#include "tests/fluid_solver/analytic_overlap.hpp"
+
+using namespace polynya::fluid;
+using namespace polynya::fluid::test;
+
+namespace {
+
+constexpr double side = 0.02;
+
+Fluid cube(int cells, Boundary boundary, Vector ambient = {}, double gravity = 0) {
+  Setup setup;
+  setup.boundary.fill(boundary);
+  setup.ambient_velocity = ambient;
+  setup.gravity = gravity;
+  const auto line = even_line(0, side, cells);
+  return {Grid(line, line, line), setup};
+}
+
+double largest_pressure_change(const Fluid& fluid) {
+  double most = 0;
+  for (std::size_t c = 0; c < fluid.density.size(); ++c) {
+    if (fluid.density[c] > 0) most = std::max(most, std::abs(fluid.predicted_pressure[c] - 101325));
+  }
+  return most;
+}
+
+Box moving_box(double t, Vector v) {
+  const Vector low{0.00612 + v[0] * t, 0.0071 + v[1] * t, 0.0058 + v[2] * t};
+  return {low, {low[0] + 0.0073, low[1] + 0.0061, low[2] + 0.0067}};
+}
+
+struct Books {
+  double energy;
+  std::array<double, 3> momentum;
+  std::array<double, 2> mass;
+};
+
+Books books(const Account& a) {
+  Books b{a.energy_sum(), {}, {a.mass[0] + a.boundary_mass[0], a.mass[1] + a.boundary_mass[1]}};
+  for (int d = 0; d < 3; ++d) {
+    b.momentum[d] = a.momentum[d] + a.body_impulse[0][d] + a.body_impulse[1][d] + a.boundary_impulse[d] + a.node_fix_impulse[d];
+  }
+  b.momentum[2] += a.gravity_impulse;
+  return b;
+}
+
+}  // namespace
+
+TEST(Motion, BodyAndFluidMovingTogetherFeelNothing) {
+  const Vector v{23, 17, 40};
+  Fluid fluid = cube(12, Boundary::non_reflecting, v);
+  fill_hydrostatic(fluid, overlap_of(fluid.grid, moving_box(0, v), v), 1.0, v);
+  const double dt = stable_step(fluid);
+  double worst = 0;
+  for (int n = 0; n < 150; ++n) {
+    step(fluid, dt, overlap_of(fluid.grid, moving_box(fluid.time + dt, v), v));
+    worst = std::max(worst, largest_pressure_change(fluid));
+  }
+  const double scale = 1000 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  EXPECT_LT(worst / scale, 1e-5);
+  EXPECT_GT(v[2] * fluid.time, 1.2 * side / 12);  // it has crossed planes of the grid
+}
+
+TEST(Motion, BooksCloseInEveryStep) {
+  // A box rising out of water into air, its walls cutting cells anyhow; walls on all sides of the domain.
+  const Vector v{3, -2, 40};
+  Fluid fluid = cube(10, Boundary::wall, {}, 9.81);
+  fill_hydrostatic(fluid, overlap_of(fluid.grid, moving_box(0, v), v), 0.0117);
+  start_potential_flow(fluid);
+  const double dt = 0.7 * stable_step(fluid);
+  const Books start = books(fluid.account);
+  Books last = start;
+  const double scale = 1000 * side * side * side * 40;
+  for (int n = 0; n < 200; ++n) {
+    step(fluid, dt, overlap_of(fluid.grid, moving_box(fluid.time + dt, v), v));
+    const Books now = books(fluid.account);
+    EXPECT_NEAR(now.energy, last.energy, 1e-12 * scale * 40) << n;
+    for (int d = 0; d < 3; ++d) EXPECT_NEAR(now.momentum[d], last.momentum[d], 1e-12 * scale) << n << " axis " << d;
+    for (int m = 0; m < 2; ++m) EXPECT_NEAR(now.mass[m], last.mass[m], 1e-12 * start.mass[0]) << n;
+    last = now;
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(fluid.account.kinetic, 0);
+}
+
+TEST(Motion, OpenBoundariesCloseTheBooksToo) {
+  const Vector v{0, 0, 30};
+  Fluid fluid = cube(10, Boundary::non_reflecting);
+  fill_hydrostatic(fluid, overlap_of(fluid.grid, moving_box(0, v), v, 1), 1.0);
+  const double dt = 0.7 * stable_step(fluid);
+  const Books start = books(fluid.account);
+  for (int n = 0; n < 100; ++n) step(fluid, dt, overlap_of(fluid.grid, moving_box(fluid.time + dt, v), v, 1));
+  const Books end = books(fluid.account);
+  const double scale = 1000 * side * side * side * 40;
+  EXPECT_NEAR(end.energy, start.energy, 1e-11 * scale * 40);
+  for (int d = 0; d < 3; ++d) EXPECT_NEAR(end.momentum[d], start.momentum[d], 1e-11 * scale);
+  for (int m = 0; m < 2; ++m) EXPECT_NEAR(end.mass[m], start.mass[m], 1e-12 * start.mass[0]);
+}
+
+TEST(Motion, NumberOfThreadsChangesNoBit) {
+  const auto run = [](int threads) {
+    omp_set_num_threads(threads);
+    const Vector v{3, -2, 40};
+    Fluid fluid = cube(10, Boundary::non_reflecting, {}, 9.81);
+    fill_hydrostatic(fluid, overlap_of(fluid.grid, moving_box(0, v), v), 0.0117);
+    start_potential_flow(fluid);
+    for (int n = 0; n < 20; ++n) step(fluid, 2e-7, overlap_of(fluid.grid, moving_box(fluid.time + 2e-7, v), v));
+    return fluid;
+  };
+  const int threads = omp_get_max_threads();
+  const Fluid one = run(1), two = run(2);
+  omp_set_num_threads(threads);
+  EXPECT_EQ(one.velocity, two.velocity);
+  EXPECT_EQ(one.material[0].mass, two.material[0].mass);
+  EXPECT_EQ(one.material[1].energy, two.material[1].energy);
+  EXPECT_EQ(account_values(one.account), account_values(two.account));
+}
+
+TEST(Motion, DebrisPressesWaterAsideAndIsBooked) {
+  Fluid fluid = cube(8, Boundary::non_reflecting);
+  const auto debris = [&](double volume) {
+    Overlap overlap;
+    overlap.cell = {3 + 8 * (3 + 8 * 3)};
+    overlap.solid_volume = {0};
+    overlap.debris_volume = {volume};
+    overlap.wall_area.assign(6, 0);
+    overlap.wall_velocity.assign(6, 0);
+    return overlap;
+  };
+  const double cell = side * side * side / 512;
+  fill_hydrostatic(fluid, debris(0.3 * cell), 1.0);
+  const Books start = books(fluid.account);
+  const double mass = fluid.account.mass[water];
+  // Slowly, so that the water pushed out does not keep flowing; past half full the cell joins a neighbour.
+  for (int n = 1; n <= 1000; ++n) step(fluid, 3e-7, debris((0.3 + 0.0004 * n) * cell));
+  for (int n = 0; n < 200; ++n) step(fluid, 3e-7, debris(0.7 * cell));
+  EXPECT_NEAR(books(fluid.account).energy, start.energy, 1e-12);
+  EXPECT_NEAR(mass - fluid.account.mass[water], 1000 * 0.4 * cell, 0.05 * 1000 * 0.4 * cell);  // left through the boundary
+  EXPECT_GT(std::abs(fluid.account.debris_work), 0);
+}
+
+TEST(Motion, SealedPocketKeepsItsMass) {
+  // A plate closes on the wall of the domain and leaves no way out for the last water before it.
+  Fluid fluid = cube(8, Boundary::wall);
+  const Vector v{0, 0, 20};
+  const auto plate = [&](double t) { return Box{{-1, -1, 0.0101 + 20 * t}, {0.0151, 1, 0.0161 + 20 * t}}; };
+  fill_hydrostatic(fluid, overlap_of(fluid.grid, plate(0), v), 1.0);
+  const double mass = fluid.account.mass[water], dt = 4e-7;
+  while (fluid.time < 1.95e-4) step(fluid, dt, overlap_of(fluid.grid, plate(fluid.time + dt), v));
+  EXPECT_NEAR(fluid.account.mass[water], mass, 1e-12 * mass);
+}
