@@ -282,6 +282,7 @@ int start_potential_flow(Fluid& fluid) {
 }
 
 int adapt_potential_flow(Fluid& fluid, const Overlap& now, const Overlap& soon, double waterline) {
+  const Account first = fluid.account;
   auto velocity = fluid.velocity;
   fill_hydrostatic(fluid, soon, waterline);
   fluid.velocity = std::move(velocity);
@@ -291,6 +292,11 @@ int adapt_potential_flow(Fluid& fluid, const Overlap& now, const Overlap& soon, 
   fluid.velocity = std::move(velocity);
   add_bernoulli_pressure(fluid);
   finish_filling(fluid);
+  // Who has read the account already finds the same sums: the change counts as given from outside.
+  Account& account = fluid.account;
+  account.node_fix = first.energy_sum() - account.energy_sum();
+  for (int d = 0; d < 3; ++d) account.boundary_impulse[d] = first.momentum[d] - account.momentum[d];
+  for (int m = 0; m < 2; ++m) account.boundary_mass[m] = first.mass[m] - account.mass[m];
   return iterations;
 }
 
