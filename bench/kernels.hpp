@@ -19,6 +19,7 @@ double shortest_time(int repetitions, const std::function<void()>& call);
 std::vector<Figure> machine_triad();
 std::vector<Figure> hexahedron_elastic();
 std::vector<Figure> hexahedron_jh2();
+std::vector<Figure> particle();
 std::vector<Figure> clip();
 
 }  // namespace polynya::bench

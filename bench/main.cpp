@@ -42,6 +42,7 @@ const Kernel kernels[] = {
     {"machine.triad", machine_triad},
     {"ice.hexahedron_elastic", hexahedron_elastic},
     {"ice.hexahedron_jh2", hexahedron_jh2},
+    {"ice.particle", particle},
     {"geometry.clip", clip},
 };
 

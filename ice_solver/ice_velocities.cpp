@@ -1,5 +1,7 @@
 // The second half of a step: velocities from forces, and the books of energy and momentum.
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include "core/compute/parallel.hpp"
 #include "ice_solver/ice_body.hpp"
@@ -27,7 +29,7 @@ struct Powers {
 /// Powers of the forces at t(n+1) with the present velocities.
 Powers powers(const IceBody& ice, std::span<const double> particle_loads) {
   const Points& points = ice.particles.points;
-  Powers p{};
+  Powers p{};  // nothing to sum before there are particles or weight
   if (points.count() > 0) {
     p.node_pair = product(ice.pair_force, ice.solid.velocities);
     p.viscous = -product(points.viscous_force, points.velocity) -
@@ -74,38 +76,61 @@ void advance_particles(IceBody& ice, std::span<const double> loads, double dt_pr
   ice.books.particle_step_change.add(0, half_square * (dt_previous * dt_previous - dt_next * dt_next));
 }
 
+/// Per component, N and N s.
 struct MomentumBalance {
-  double boundary = 0;  ///< N, what planes, held and damped nodes push with
-  double momentum = 0;  ///< N s, at t(n)
+  std::array<double, 3> boundary{};  ///< what planes, held and damped nodes push with
+  std::array<double, 3> rate{};      ///< of change, by all forces
+  std::array<double, 3> momentum{};  ///< with the velocities after the step
+  void add(const MomentumBalance& other) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      boundary[c] += other.boundary[c];
+      rate[c] += other.rate[c];
+      momentum[c] += other.momentum[c];
+    }
+  }
 };
 
-MomentumBalance momentum_balance(const IceBody& ice, std::size_t c, double dt_next) {
+/// A free node feels the damped boundary through its internal force, whose sum would else be zero; a held one has its
+/// other forces taken by what holds it. Pair forces are internal, but for those of mirror images.
+void add_node(const IceBody& ice, std::size_t n, MomentumBalance& sum) {
   const auto& solid = ice.solid;
-  const Particles& p = ice.particles;
-  const auto is_free = [&](std::size_t n) { return solid.masses[n] > 0 && (solid.fixed[n] >> c & 1) == 0; };
-  const auto sum_nodes = [&](auto&& term) { return ordered_sum(solid.node_count(), 4096, term); };
-  const auto sum_particles = [&](auto&& term) { return ordered_sum(p.count(), 4096, term); };
-  MomentumBalance balance;
-  // A free node feels the damped boundary through its internal force, whose sum would else be zero; a held one has its
-  // other forces taken by what holds it. Pair forces are internal, but for those of mirror images.
-  balance.boundary = sum_nodes([&](std::size_t n) {
+  const double mass = solid.masses[n];
+  for (std::size_t c = 0; c < 3; ++c) {
     const std::size_t k = 3 * n + c;
-    return ice.pair_force[k] + (is_free(n) ? solid.internal_force[k] : -ice.nodal_force[k]);
-  }) + sum_particles([&](std::size_t i) { return p.points.force[3 * i + c]; });
-  const double rate = sum_nodes([&](std::size_t n) {
-    return is_free(n) ? solid.internal_force[3 * n + c] + ice.nodal_force[3 * n + c] : 0.0;
-  }) + sum_particles([&](std::size_t i) { return p.points.mass[i] * p.acceleration[3 * i + c]; });
-  balance.momentum = sum_nodes([&](std::size_t n) { return solid.masses[n] * solid.velocities[3 * n + c]; }) +
-                     sum_particles([&](std::size_t i) { return p.points.mass[i] * p.points.velocity[3 * i + c]; }) -
-                     0.5 * dt_next * rate;
-  return balance;
+    const bool is_free = mass > 0 && (solid.fixed[n] >> c & 1) == 0;
+    sum.boundary[c] += ice.pair_force[k] + (is_free ? solid.internal_force[k] : -ice.nodal_force[k]);
+    sum.rate[c] += is_free ? solid.internal_force[k] + ice.nodal_force[k] : 0.0;
+    sum.momentum[c] += mass * solid.velocities[k];
+  }
+}
+
+void add_particle(const Particles& p, std::size_t i, MomentumBalance& sum) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::size_t k = 3 * i + c;
+    sum.boundary[c] += p.points.force[k];
+    sum.rate[c] += p.points.mass[i] * p.acceleration[k];
+    sum.momentum[c] += p.points.mass[i] * p.points.velocity[k];
+  }
+}
+
+MomentumBalance momentum_balance(const IceBody& ice) {
+  constexpr std::size_t chunk = 2048;
+  const std::size_t nodes = ice.solid.node_count();
+  std::vector<MomentumBalance> partial((nodes + chunk - 1) / chunk);
+  compute::for_chunks(nodes, chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) add_node(ice, n, partial[begin / chunk]);
+  });
+  MomentumBalance total;
+  for (std::size_t i = 0; i < ice.particles.count(); ++i) add_particle(ice.particles, i, total);
+  for (const MomentumBalance& part : partial) total.add(part);
+  return total;
 }
 
 void book_momentum(IceBody& ice, double dt_previous, double dt_next) {
+  const MomentumBalance balance = momentum_balance(ice);
   for (std::size_t c = 0; c < 3; ++c) {
-    const MomentumBalance balance = momentum_balance(ice, c, dt_next);
-    ice.books.boundary_impulse[c].add(0.5 * dt_previous * balance.boundary, 0.5 * dt_next * balance.boundary);
-    ice.books.momentum[c] = balance.momentum;
+    ice.books.boundary_impulse[c].add(0.5 * dt_previous * balance.boundary[c], 0.5 * dt_next * balance.boundary[c]);
+    ice.books.momentum[c] = balance.momentum[c] - 0.5 * dt_next * balance.rate[c];
   }
   if (ice.options.gravity == 0) return;
   const auto sum = [](const std::vector<double>& mass) {
