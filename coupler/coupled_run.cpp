@@ -68,7 +68,7 @@ void refresh_limits(Run& run) {
 
 void plan_next_span(Run& run) {
   refresh_limits(run);
-  const SpanPlan plan = plan_span(run.limits, run.keeper.step);
+  const SpanPlan plan = plan_span(run.limits);
   run.planned_step = plan.step;
   run.keeper.windows_left = plan.windows;
   run.keeper.span_start = run.keeper.time;

@@ -1,5 +1,6 @@
 #include "coupler/stability_limits.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 
@@ -8,19 +9,29 @@
 namespace polynya::coupler {
 namespace {
 
-/// Mass per area of every vertex of the surface, 0 for particles.
+/// Mass per wetted area of every vertex, 0 for particles. Water resists the motion of a vertex by rho c sum(A n n^T): its
+/// largest eigenvalue over rho c is the area that counts, so the three faces at a corner do not add up.
 std::vector<double> vertex_areal_mass(const SolidSide& side) {
   using contact::operator-;
-  std::vector<double> area(side.vertices(), 0.0);
+  std::vector<Eigen::Matrix3d> area(side.vertices(), Eigen::Matrix3d::Zero());
   for (std::size_t t = 0; t < side.triangles.size() / 3; ++t) {
     const std::int32_t* v = &side.triangles[3 * t];
     const contact::Vector3 a = contact::row(side.positions, v[0]), b = contact::row(side.positions, v[1]),
                            c = contact::row(side.positions, v[2]);
-    const double third = contact::norm(contact::cross(b - a, c - a)) / 6;
-    for (int i = 0; i < 3; ++i) area[v[i]] += third;
+    const contact::Vector3 cross = contact::cross(b - a, c - a);
+    const double length = contact::norm(cross);
+    if (length == 0) continue;
+    const Eigen::Vector3d normal(cross[0] / length, cross[1] / length, cross[2] / length);
+    for (int i = 0; i < 3; ++i) area[v[i]] += length / 6 * normal * normal.transpose();
   }
-  for (std::size_t v = 0; v < area.size(); ++v) area[v] = area[v] > 0 ? side.masses[v] / area[v] : 0.0;
-  return area;
+  std::vector<double> areal_mass(side.vertices(), 0.0);
+  for (std::size_t v = 0; v < area.size(); ++v) {
+    if (area[v].trace() <= 0) continue;
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect(area[v], Eigen::EigenvaluesOnly);
+    areal_mass[v] = side.masses[v] / solver.eigenvalues()(2);
+  }
+  return areal_mass;
 }
 
 /// In the last layer of cells along an outer side of the grid. Planes of symmetry (lines that start at 0) do not count.

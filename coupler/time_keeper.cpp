@@ -7,13 +7,12 @@ namespace {
 constexpr double largest_growth = 1.1;  // of consecutive steps: keeps the leapfrog near its second order
 }
 
-SpanPlan plan_span(const StepLimits& limits, double step_before) {
-  double solid = limits.solid_factor * limits.solid_stable;
-  if (step_before > 0) solid = std::min(solid, largest_growth * step_before);
+SpanPlan plan_span(const StepLimits& limits) {
+  const double solid = limits.solid_factor * limits.solid_stable;
   double span = limits.longest_span;
   if (limits.fluid_stable > 0) span = std::min(limits.fluid_factor * limits.fluid_stable, limits.lag_limit);
   const double windows = std::max(1.0, std::ceil(span / solid));
-  return {std::min(solid, span / windows), static_cast<long>(windows)};
+  return {span / windows, static_cast<long>(windows)};
 }
 
 double next_step(const StepLimits& limits, double planned, double step_before) {

@@ -28,12 +28,13 @@ struct TimeKeeper {
 };
 
 /// Length of the span and number of windows in it, from the limits. The span is the fluid's stable step, bounded by
-/// the lag of its loads; windows divide it evenly and never exceed the solids' stable step.
+/// the lag of its loads; windows divide it evenly and never exceed the solids' stable step. While windows still grow
+/// towards that length (next_step) the span is shorter.
 struct SpanPlan {
   double step = 0;
   long windows = 1;
 };
-SpanPlan plan_span(const StepLimits& limits, double step_before);
+SpanPlan plan_span(const StepLimits& limits);
 
 /// Next window inside a span: the planned step, shortened if the solids' stable step fell, growing by at most a tenth.
 double next_step(const StepLimits& limits, double planned, double step_before);

@@ -7,18 +7,18 @@ using namespace polynya::coupler;
 TEST(TimeKeeper, SpanIsWholeWindowsWithinEveryLimit) {
   StepLimits limits{.solid_stable = 1e-7, .solid_factor = 0.9, .fluid_stable = 6e-7, .fluid_factor = 0.5,
                     .lag_limit = 2.5e-7, .longest_span = 1};
-  const SpanPlan plan = plan_span(limits, 0);
+  const SpanPlan plan = plan_span(limits);
   EXPECT_EQ(plan.windows, 3);
   EXPECT_LE(plan.step, 0.9e-7);
   EXPECT_NEAR(plan.step * plan.windows, 2.5e-7, 1e-20);
   limits.lag_limit = 1;
-  EXPECT_NEAR(plan_span(limits, 0).step * plan_span(limits, 0).windows, 3e-7, 1e-20);
+  EXPECT_NEAR(plan_span(limits).step * plan_span(limits).windows, 3e-7, 1e-20);
 }
 
 TEST(TimeKeeper, FluidFasterThanTheSolidsShortensTheWindow) {
   const StepLimits limits{.solid_stable = 1e-6, .solid_factor = 0.9, .fluid_stable = 1e-7, .fluid_factor = 1,
                           .lag_limit = 1, .longest_span = 1};
-  const SpanPlan plan = plan_span(limits, 0);
+  const SpanPlan plan = plan_span(limits);
   EXPECT_EQ(plan.windows, 1);
   EXPECT_DOUBLE_EQ(plan.step, 1e-7);
 }

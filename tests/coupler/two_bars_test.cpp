@@ -54,7 +54,7 @@ std::pair<ElasticBar, ElasticBar> one_process(const scene::Scene& scene) {
     limits.solid_stable = std::min(continuum::stable_step(a.solid), continuum::stable_step(b.solid));
   };
   refresh();
-  coupler::SpanPlan plan = coupler::plan_span(limits, 0);
+  coupler::SpanPlan plan = coupler::plan_span(limits);
   double step = plan.step, time = 0;
   bool finished = false;
   std::vector<std::int64_t> all_a(mass_a.size()), all_b(mass_b.size());
@@ -73,7 +73,7 @@ std::pair<ElasticBar, ElasticBar> one_process(const scene::Scene& scene) {
         contact.evaluate({xa, va, mass_a, a.triangles}, {xb, vb, mass_b, radii, ids}, step);
     if (--left == 0) {
       finished = time >= scene.run.end_time - 5e-10;
-      plan = coupler::plan_span(limits, step);
+      plan = coupler::plan_span(limits);
       left = plan.windows;
     }
     const double next = coupler::next_step(limits, plan.step, step);
