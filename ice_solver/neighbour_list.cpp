@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -110,6 +109,42 @@ void NeighbourList::sort_into_cells(double cell) {
   for (std::size_t i = 0; i < n; ++i) keys_[i] = order[i].first;
 }
 
+std::array<NeighbourList::Range, 9> NeighbourList::ranges_around(std::int64_t key) const {
+  std::array<Range, 9> ranges;
+  std::size_t k = 0;
+  for (std::int64_t layer = -1; layer <= 1; ++layer)
+    for (std::int64_t line = -1; line <= 1; ++line, ++k) {
+      const std::int64_t middle = key + line * stride_y_ + layer * stride_z_;
+      const auto low = std::lower_bound(keys_.begin(), keys_.end(), middle - 1);
+      const auto high = std::upper_bound(low, keys_.end(), middle + 1);
+      ranges[k] = {static_cast<std::size_t>(low - keys_.begin()), static_cast<std::size_t>(high - keys_.begin())};
+    }
+  return ranges;
+}
+
+void NeighbourList::append_neighbours(std::size_t i, const Range& range, double skin,
+                                      std::vector<std::int32_t>& buffer) const {
+  const auto accept = [&](std::size_t j) {
+    if (j == i || (points_[i].element && points_[j].element)) return;
+    buffer.push_back(static_cast<std::int32_t>(j));
+  };
+  const double own_reach = h_[i] + skin;
+  const Pack xi(x_[i]), yi(y_[i]), zi(z_[i]), reach(own_reach);
+  std::size_t j = range.low;
+  for (; j + pack_width <= range.high; j += pack_width) {
+    const Pack dx = Pack(&x_[j], compute::aligned) - xi, dy = Pack(&y_[j], compute::aligned) - yi,
+               dz = Pack(&z_[j], compute::aligned) - zi, limit = Pack(&h_[j], compute::aligned) + reach;
+    const auto inside = dx * dx + dy * dy + dz * dz < limit * limit;
+    if (none_of(inside)) continue;
+    for (std::size_t lane = 0; lane < pack_width; ++lane)
+      if (inside[lane]) accept(j + lane);
+  }
+  for (; j < range.high; ++j) {
+    const double dx = x_[j] - x_[i], dy = y_[j] - y_[i], dz = z_[j] - z_[i], limit = h_[j] + own_reach;
+    if (dx * dx + dy * dy + dz * dz < limit * limit) accept(j);
+  }
+}
+
 void NeighbourList::fill_rows(double skin) {
   rows_.clear();
   for (std::size_t i = 0; i < points_.size(); ++i)
@@ -119,46 +154,17 @@ void NeighbourList::fill_rows(double skin) {
   compute::for_chunks(rows_.size(), chunk, [&](std::size_t begin, std::size_t end) {
     std::vector<std::int32_t>& buffer = buffers_[begin / chunk];
     buffer.clear();
-    std::pair<std::size_t, std::size_t> ranges[9];
+    std::array<Range, 9> ranges{};
     std::int64_t ranges_of = -1;
     for (std::size_t r = begin; r < end; ++r) {
       Row& row = rows_[r];
       const auto i = static_cast<std::size_t>(row.point);
+      if (keys_[i] != ranges_of) ranges = ranges_around(ranges_of = keys_[i]);
       row.first = static_cast<std::int32_t>(buffer.size());
-      if (keys_[i] != ranges_of) {  // the three cells along x are contiguous: nine ranges hold all candidates
-        ranges_of = keys_[i];
-        int k = 0;
-        for (std::int64_t layer = -1; layer <= 1; ++layer)
-          for (std::int64_t line = -1; line <= 1; ++line) {
-            const std::int64_t middle = keys_[i] + line * stride_y_ + layer * stride_z_;
-            const auto low = std::lower_bound(keys_.begin(), keys_.end(), middle - 1);
-            const auto high = std::upper_bound(low, keys_.end(), middle + 1);
-            ranges[k++] = {static_cast<std::size_t>(low - keys_.begin()), static_cast<std::size_t>(high - keys_.begin())};
-          }
-      }
-      const Pack xi(x_[i]), yi(y_[i]), zi(z_[i]), reach(h_[i] + skin);
-      const auto accept = [&](std::size_t j) {
-        if (j == i || (points_[i].element && points_[j].element)) return;
-        buffer.push_back(static_cast<std::int32_t>(j));
-      };
-      for (const auto& [low, high] : ranges) {
-        std::size_t j = low;
-        for (; j + pack_width <= high; j += pack_width) {
-          const Pack dx = Pack(&x_[j], compute::aligned) - xi, dy = Pack(&y_[j], compute::aligned) - yi,
-                     dz = Pack(&z_[j], compute::aligned) - zi, limit = Pack(&h_[j], compute::aligned) + reach;
-          const auto inside = dx * dx + dy * dy + dz * dz < limit * limit;
-          if (none_of(inside)) continue;
-          for (std::size_t lane = 0; lane < pack_width; ++lane)
-            if (inside[lane]) accept(j + lane);
-        }
-        for (; j < high; ++j) {
-          const double dx = x_[j] - x_[i], dy = y_[j] - y_[i], dz = z_[j] - z_[i], limit = h_[j] + h_[i] + skin;
-          if (dx * dx + dy * dy + dz * dz < limit * limit) accept(j);
-        }
-      }
+      for (const Range& range : ranges) append_neighbours(i, range, skin, buffer);
       row.neighbours = static_cast<std::int32_t>(buffer.size()) - row.first;
-      while ((buffer.size() - static_cast<std::size_t>(row.first)) % pack_width != 0) buffer.push_back(empty_point());
-      row.length = static_cast<std::int32_t>(buffer.size()) - row.first;
+      row.length = static_cast<std::int32_t>(compute::padded(static_cast<std::size_t>(row.neighbours)));
+      buffer.resize(static_cast<std::size_t>(row.first + row.length), empty_point());
     }
   });
 }

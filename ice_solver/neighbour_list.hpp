@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -49,6 +50,12 @@ class NeighbourList {
   std::size_t builds() const { return builds_; }
 
  private:
+  struct Range {  // of points in sorted order
+    std::size_t low, high;
+  };
+  /// Candidates for the points of one cell: the three cells along x are contiguous, so nine ranges hold all 27.
+  std::array<Range, 9> ranges_around(std::int64_t key) const;
+  void append_neighbours(std::size_t i, const Range& range, double skin, std::vector<std::int32_t>& buffer) const;
   void collect_points(const Points& particles, const Points& elements, SymmetryPlanes planes, double reach);
   void sort_into_cells(double cell);
   void fill_rows(double skin);
