@@ -1,0 +1,45 @@
+#include <cmath>
+#include <memory>
+
+#include "bench/kernels.hpp"
+#include "fluid_solver/fluid.hpp"
+
+namespace polynya::bench {
+namespace {
+
+constexpr int cells = 64;
+
+/// Water to two thirds of a cube, air above, everything in motion; open boundaries.
+std::unique_ptr<fluid::Fluid> basin() {
+  std::vector<double> line;
+  for (int i = 0; i <= cells; ++i) line.push_back(0.1 * i / cells);
+  fluid::Setup setup;
+  setup.gravity = 9.81;
+  setup.boundary.fill(fluid::Boundary::non_reflecting);
+  auto basin = std::make_unique<fluid::Fluid>(fluid::Grid(line, line, line), setup);
+  fill_hydrostatic(*basin, {}, 0.0667);
+  const fluid::Grid& grid = basin->grid;
+  for (int k = 1; k <= cells + 1; ++k) {
+    for (int j = 1; j <= cells + 1; ++j) {
+      for (int i = 1; i <= cells + 1; ++i) {
+        const std::ptrdiff_t n = grid.at(i, j, k);
+        basin->velocity[0][n] = 5 * std::sin(6.0 * k / cells);
+        basin->velocity[1][n] = 5 * std::cos(4.0 * i / cells);
+        basin->velocity[2][n] = 5 * std::sin(5.0 * j / cells);
+      }
+    }
+  }
+  return basin;
+}
+
+}  // namespace
+
+/// One whole step (equation of state, Lagrange phase, remap, account) per cell, ns.
+std::vector<Figure> fluid_step() {
+  const auto water = basin();
+  const double dt = 0.8 * fluid::stable_step(*water);
+  const double seconds = shortest_time(10, [&] { fluid::step(*water, dt, {}); });
+  return {{"fluid.cell_ns", 1e9 * seconds / static_cast<double>(water->grid.cells())}};
+}
+
+}  // namespace polynya::bench
