@@ -179,4 +179,25 @@ void close_wall_nodes(Fluid& fluid) {
   }
 }
 
+void mirror_pressure(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  double* p = fluid.pressure.data();
+  for (int k = 1; k <= grid.nz; ++k) {
+    for (int j = 1; j <= grid.ny; ++j) {
+      p[grid.at(0, j, k)] = p[grid.at(1, j, k)];
+      p[grid.at(grid.nx + 1, j, k)] = p[grid.at(grid.nx, j, k)];
+    }
+    for (int i = 0; i <= grid.nx + 1; ++i) {
+      p[grid.at(i, 0, k)] = p[grid.at(i, 1, k)];
+      p[grid.at(i, grid.ny + 1, k)] = p[grid.at(i, grid.ny, k)];
+    }
+  }
+  for (int j = 0; j <= grid.ny + 1; ++j) {
+    for (int i = 0; i <= grid.nx + 1; ++i) {
+      p[grid.at(i, j, 0)] = p[grid.at(i, j, 1)];
+      p[grid.at(i, j, grid.nz + 1)] = p[grid.at(i, j, grid.nz)];
+    }
+  }
+}
+
 }  // namespace polynya::fluid

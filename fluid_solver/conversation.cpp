@@ -58,6 +58,15 @@ void start(const scene::Scene& scene, Fluid& fluid, const Overlap& overlap) {
                fluid.account.mass[air], stable_step(fluid), fluid.groups.count());
 }
 
+/// Walls stand in the order of the overlap's cells.
+void add_impulse(exchange::Message& message, const Fluid& fluid) {
+  std::vector<double> impulse;
+  impulse.reserve(6 * fluid.wall_impulse.size());
+  for (const auto& bodies : fluid.wall_impulse)
+    for (const auto& body : bodies) impulse.insert(impulse.end(), body.begin(), body.end());
+  message.add<double>("pressure.impulse", {static_cast<std::int64_t>(fluid.wall_impulse.size()), 2, 3}, impulse);
+}
+
 double positive_span(const exchange::Message& message, double time) {
   const double span = message.header.value("time1", 0.0) - time;
   if (!(span > 0)) throw exchange::ProtocolError("message 'span': header 'time1' must be later than the fluid's time");
@@ -99,10 +108,16 @@ void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant&
       spdlog::info("potential flow: {} more iterations for the first step", iterations);
     }
     if (fluid.steps == 0) output.start(fluid);
-    step(fluid, dt, next);
+    try {
+      step(fluid, dt, next);
+    } catch (const FluidError&) {
+      output.write_frame(fluid, output.frames());  // what it looked like
+      throw;
+    }
     exchange::Message answer = make_pressure(fluid, next);
     answer.header["span"] = span.header.value("span", 0L);
     add_pressure(answer, fluid, overlap, "pressure.previous_");
+    add_impulse(answer, fluid);
     coupler.send(std::move(answer));
     overlap = std::move(next);
     output.record(fluid, dt);

@@ -65,6 +65,8 @@ struct Fluid {
   // Valid from the beginning of a step; kept for output and for the loads on solids.
   std::vector<double> pressure;            ///< absolute, at the centre of the whole cell, Pa
   std::vector<double> predicted_pressure;  ///< what the step used, with shock viscosity, Pa
+  std::vector<std::array<std::array<double, 3>, 2>> wall_impulse;  ///< by wall of `after` and body: from nodes that the
+                                                                   ///< wall carried along in the last step, N s
   std::vector<double> density;             ///< of the mixture, per free volume, kg/m^3
   std::vector<double> bulk_modulus;        ///< of the mixture, 0 where water cavitates, Pa
   std::vector<double> sound_speed;         ///< the largest of the materials present, m/s

@@ -64,6 +64,26 @@ bool solid_on_one_side(const Fluid& fluid, std::ptrdiff_t node, int axis) {
   return cells[0] > 0 && cells[1] > 0 && (filled[0] == 0) != (filled[1] == 0);
 }
 
+/// The piece of wall around the node with the largest area, and its body; no wall inside solid.
+struct Receiver {
+  const WallPiece* wall = nullptr;
+  int body = 0;
+};
+Receiver nearest_wall(std::span<const NodeAtWall> around) {
+  Receiver receiver;
+  double largest = 0;
+  for (const NodeAtWall& at : around) {
+    for (int body = 0; body < 2; ++body) {
+      const auto& a = at.wall->area[body];
+      const double area = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+      if (area <= largest) continue;
+      largest = area;
+      receiver = {at.wall, body};
+    }
+  }
+  return receiver;
+}
+
 std::optional<std::array<double, 3>> mean_of_neighbours(const Fluid& fluid, std::ptrdiff_t n) {
   const std::vector<double>& free = fluid.after.node_fraction;
   double weight = 0;
@@ -87,8 +107,10 @@ void fix_covered_nodes(Fluid& fluid) {
   struct Change {
     std::ptrdiff_t node;
     std::array<double, 3> velocity;
+    Receiver receiver;
   };
   std::vector<Change> changes;
+  fluid.wall_impulse.assign(fluid.after.walls.size(), {});
   for (std::size_t from = 0; from < nodes.size();) {
     std::size_t to = from;
     while (to < nodes.size() && nodes[to].node == nodes[from].node) ++to;
@@ -96,7 +118,7 @@ void fix_covered_nodes(Fluid& fluid) {
     const std::ptrdiff_t n = nodes[from].node;
     from = to;
     const bool hidden = fluid.after.node_fraction[n] < covered;
-    Change change{n, {fluid.velocity[0][n], fluid.velocity[1][n], fluid.velocity[2][n]}};
+    Change change{n, {fluid.velocity[0][n], fluid.velocity[1][n], fluid.velocity[2][n]}, nearest_wall(around)};
     bool changed = hidden;
     if (hidden) {
       const auto mean = mean_of_neighbours(fluid, n);
@@ -111,11 +133,13 @@ void fix_covered_nodes(Fluid& fluid) {
     }
     if (changed) changes.push_back(change);
   }
-  for (const auto& [n, velocity] : changes) {
+  for (const auto& [n, velocity, receiver] : changes) {
     const double mass = fluid.node_mass[n];
     for (int d = 0; d < 3; ++d) {
       double& u = fluid.velocity[d][n];
-      fluid.account.node_fix_impulse[d] += mass * (u - velocity[d]);
+      const double impulse = mass * (u - velocity[d]);
+      if (receiver.wall) fluid.wall_impulse[receiver.wall - fluid.after.walls.data()][receiver.body][d] += impulse;
+      fluid.account.node_fix_impulse[d] += impulse;
       fluid.account.node_fix += 0.5 * mass * (u * u - velocity[d] * velocity[d]);
       u = velocity[d];
     }

@@ -23,6 +23,7 @@ class Output {
   void write_frame(const Fluid& fluid, int number);
   void close(const Fluid& fluid, double waiting_seconds);
   nlohmann::json summary(const Fluid& fluid) const;
+  int frames() const { return static_cast<int>(frames_.count()); }
   const std::string& folder() const { return folder_; }
 
  private:

@@ -36,6 +36,8 @@ void book_boundary_flow(Fluid& fluid, double dt);
 void copy_face_mass_to_ghosts(Fluid& fluid);
 void copy_velocity_to_ghosts(Fluid& fluid);
 void close_wall_nodes(Fluid& fluid);
+/// Repeats the pressure of the outermost cells in the ghosts.
+void mirror_pressure(Fluid& fluid);
 
 /// lagrange_step.cpp
 void face_rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity, std::array<std::vector<double>, 3>& rate);

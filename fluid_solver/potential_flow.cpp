@@ -16,7 +16,7 @@ constexpr int most_iterations = 3000;
 /// A member of a group that is at least so full keeps its own impulse: the step's prediction also holds the members of a
 /// group to the walls' motion one by one, and a start that ignores it would begin with a jolt.
 constexpr double own_fill = 0.01;
-constexpr double tolerance = 1e-6;  ///< of the norm of the walls' rates of volume
+constexpr double tolerance = 2e-5;  ///< of the norm of the walls' rates of volume
 
 class Projection {
  public:

@@ -61,7 +61,7 @@ void row_smoothing(Fluid& fluid, double dt, int axis, int j, int k) {
   const double *p = fluid.pressure.data() + row, *sound = fluid.sound_speed.data() + row, *b = fluid.node_fraction.data() + row;
   const double area_by_dx = axis == 0 ? 0 : axis == 1 ? grid.dz[k] : grid.dy[j], area_x = axis == 0 ? grid.dy[j] * grid.dz[k] : 0.0;
   double* __restrict face_mass = fluid.face_mass[axis].data() + row;
-  for (std::ptrdiff_t i = axis == 0 ? 3 : 2; i <= grid.nx - 1; ++i) {
+  for (std::ptrdiff_t i = axis == 0 ? 2 : 1; i <= grid.nx; ++i) {
     const auto jump = [&](std::ptrdiff_t c) { return p[c] - p[c - s]; };
     const auto band = [&](std::ptrdiff_t c) { return 0.25 * (jump(c - t1) + jump(c + t1)) + 0.5 * jump(c); };
     const double mean = 0.25 * (band(i - t2) + band(i + t2)) + 0.5 * band(i);
@@ -82,17 +82,17 @@ int materials_near(const Fluid& fluid, int j, int k) {
 /// Smooths the faces of a row towards its lower neighbours where both rows see water only.
 void smooth_row(Fluid& fluid, double dt, int j, int k) {
   const Grid& grid = fluid.grid;
-  const bool inner = j > 1 && j < grid.ny && k > 1 && k < grid.nz;
-  if (!inner || materials_near(fluid, j, k) != 1) return;
+  if (j > grid.ny || k > grid.nz || materials_near(fluid, j, k) != 1) return;
   row_smoothing(fluid, dt, 0, j, k);
-  if (j > 2 && materials_near(fluid, j - 1, k) == 1) row_smoothing(fluid, dt, 1, j, k);
-  if (k > 2 && materials_near(fluid, j, k - 1) == 1) row_smoothing(fluid, dt, 2, j, k);
+  if (j > 1 && materials_near(fluid, j - 1, k) == 1) row_smoothing(fluid, dt, 1, j, k);
+  if (k > 1 && materials_near(fluid, j, k - 1) == 1) row_smoothing(fluid, dt, 2, j, k);
 }
 
 }  // namespace
 
 void remap_cells(Fluid& fluid, double dt) {
   const Grid& grid = fluid.grid;
+  mirror_pressure(fluid);
   for_rows(grid, 1, [&](int j, int k) {
     row_face_mass(fluid, dt, j, k);
     smooth_row(fluid, dt, j, k);
