@@ -164,6 +164,8 @@ void exchange_with_fluid(Run& run, bool finish, long frame) {
   const WallPressure at_start = read_pressure(answer, "pressure.previous_", run.overlap->before().cell.size());
   const WallPressure at_end = read_pressure(answer, "pressure.", cells.cell.size());
   run.overlap->give_impulses(run.conversation, at_start, at_end, length, run.ledger);
+  if (answer.has("pressure.impulse"))
+    run.overlap->give_wall_impulses(run.conversation, answer.view<double>("pressure.impulse"), run.ledger);
   // Where elements broke away, lighter nodes meet the water now.
   if (run.topology_changed) run.limits.lag_limit = lag_limit(run.conversation, cells, run.scene);
   run.topology_changed = false;

@@ -1,5 +1,6 @@
 #include "coupler/overlap_exchange.hpp"
 
+#include "core/contact/vector3.hpp"
 #include "geometry/exact_cut.hpp"
 
 namespace polynya::coupler {
@@ -65,6 +66,31 @@ void OverlapExchange::give_impulses(Conversation& conversation, const WallPressu
     const auto body = static_cast<std::int32_t>(side.body);
     give(side, before_, body, at_start, 0.5 * span, ledger);
     give(side, now_, body, at_end, 0.5 * span, ledger);
+  }
+}
+
+void OverlapExchange::give_wall_impulses(Conversation& conversation, std::span<const double> impulse,
+                                         Ledger& ledger) const {
+  using contact::norm;
+  std::vector<double> area(now_.cells.cell.size() * body_count, 0.0);
+  for (const geometry::WallPiece& piece : now_.cells.pieces) area[piece.entry * body_count + piece.body] += norm(piece.area);
+  for (SolidSide& side : conversation.solids) {
+    const int body = static_cast<int>(side.body);
+    std::vector<double> impulses(side.positions.size(), 0.0);
+    for (const geometry::WallPiece& piece : now_.cells.pieces) {
+      if (piece.body != body) continue;
+      const std::size_t at = piece.entry * body_count + static_cast<std::size_t>(body);
+      if (!(area[at] > 0)) continue;
+      const double share = norm(piece.area) / area[at];
+      const std::int32_t* v = &side.triangles[3 * static_cast<std::size_t>(piece.triangle)];
+      for (int i = 0; i < 3; ++i)
+        for (int d = 0; d < 3; ++d) impulses[3 * v[i] + d] += share * piece.weights[i] * impulse[3 * at + d];
+    }
+    for (std::size_t i = 0; i < impulses.size(); ++i) {
+      side.fluid_impulse[i] += impulses[i];
+      ledger.fluid_given[body][i % 3] += impulses[i];
+      if (i % 3 == 2) ledger.fluid_carried[body] += impulses[i];
+    }
   }
 }
 

@@ -21,6 +21,10 @@ class OverlapExchange {
   void give_impulses(Conversation& conversation, const WallPressure& at_start, const WallPressure& at_end, double span,
                      Ledger& ledger) const;
 
+  /// Adds impulses that the fluid gave to walls other than by pressure, [entries of the last cut][2][3] N s. They spread
+  /// over the cell's pieces of wall by area.
+  void give_wall_impulses(Conversation& conversation, std::span<const double> impulse, Ledger& ledger) const;
+
   const geometry::CutCells& before() const { return before_.cells; }
 
   /// Recuts a seeded sample of cells by CGAL's exact kernel. Returns the largest difference relative to the cell's
