@@ -5,7 +5,7 @@ namespace polynya::fluid {
 const std::vector<std::string>& account_names() {
   static const std::vector<std::string> names{
       "kinetic", "internal", "gravity", "remap_loss", "hourglass", "node_fix", "boundary_work", "boundary_energy",
-      "wall_work_vehicle", "wall_work_ice", "swept_defect", "debris_work",
+      "wall_work_vehicle", "wall_work_ice", "swept_defect",
       "momentum_x", "momentum_y", "momentum_z",
       "impulse_vehicle_x", "impulse_vehicle_y", "impulse_vehicle_z", "impulse_ice_x", "impulse_ice_y", "impulse_ice_z",
       "boundary_impulse_x", "boundary_impulse_y", "boundary_impulse_z",
@@ -16,7 +16,7 @@ const std::vector<std::string>& account_names() {
 
 std::vector<double> account_values(const Account& a) {
   return {a.kinetic, a.internal, a.gravity, a.remap_loss, a.hourglass, a.node_fix, a.boundary_work, a.boundary_energy,
-          a.wall_work[0], a.wall_work[1], a.swept_defect, a.debris_work,
+          a.wall_work[0], a.wall_work[1], a.swept_defect,
           a.momentum[0], a.momentum[1], a.momentum[2],
           a.body_impulse[0][0], a.body_impulse[0][1], a.body_impulse[0][2],
           a.body_impulse[1][0], a.body_impulse[1][1], a.body_impulse[1][2],

@@ -5,7 +5,7 @@
 
 namespace polynya::fluid {
 
-/// Where energy, momentum and mass are, SI. The energies from `kinetic` to `debris_work` add up to a constant.
+/// Where energy, momentum and mass are, SI. The energies from `kinetic` to `swept_defect` add up to a constant.
 /// Works and impulses are sums since the start; an energy is positive once it has left the fluid into that reservoir.
 struct Account {
   double kinetic = 0, internal = 0;
@@ -16,8 +16,8 @@ struct Account {
   double boundary_work = 0;      ///< pressure on open boundaries
   double boundary_energy = 0;    ///< internal energy carried out through open boundaries
   std::array<double, 2> wall_work{};  ///< into vehicle and ice
-  double swept_defect = 0;       ///< pressure times the volume that the change of geometry and the wall motion differ by
-  double debris_work = 0;        ///< pressure times the change of debris volume
+  double swept_defect = 0;       ///< pressure times the change of volume, debris too, that is neither wall motion nor balanced
+                                 ///< among neighbours
   double released_room = 0;      ///< volume that breaking solids left at once, m^3
   std::array<double, 3> momentum{};
   std::array<std::array<double, 3>, 2> body_impulse{};  ///< to vehicle and ice (absolute pressure)
@@ -29,7 +29,7 @@ struct Account {
 
   double energy_sum() const {
     return kinetic + internal + gravity + remap_loss + hourglass + node_fix + boundary_work + boundary_energy +
-           wall_work[0] + wall_work[1] + swept_defect + debris_work;
+           wall_work[0] + wall_work[1] + swept_defect;
   }
 };
 

@@ -22,7 +22,6 @@ std::vector<StepWall> join_walls(const CutGeometry& before, const CutGeometry& a
       const WallPiece* source = new_piece && (seen > 0 || !old_piece) ? new_piece : old_piece ? old_piece : new_piece;
       wall.velocity[body] = source->velocity[body];
     }
-    wall.debris_change = (new_piece ? new_piece->debris : 0.0) - (old_piece ? old_piece->debris : 0.0);
     walls.push_back(wall);
   };
   std::size_t o = 0, n = 0;

@@ -144,7 +144,7 @@ class Network {
 }  // namespace
 
 double unexplained_change(const StepWall& wall, const CutGeometry& before, const CutGeometry& after, double dt) {
-  double change = after.volume[wall.cell] - before.volume[wall.cell] + wall.debris_change;
+  double change = after.volume[wall.cell] - before.volume[wall.cell];
   for (int body = 0; body < 2; ++body) {
     for (int axis = 0; axis < 3; ++axis) change -= dt * wall.area[body][axis] * wall.velocity[body][axis];
   }

@@ -7,17 +7,17 @@
 
 namespace polynya::fluid {
 
-/// Wall pieces of one step: mean area vectors, the velocity of the motion, and what the change of volume is made of.
+/// Wall pieces of one step: mean area vectors and the velocity of the motion.
 struct StepWall {
   std::ptrdiff_t cell = 0;
   std::array<std::array<double, 3>, 2> area{}, velocity{};
-  double debris_change = 0;  ///< m^3
 };
 
 /// Mean areas times wall velocity miss the true change of a cell's free volume, by much where a wall crosses a face of
 /// the grid within the step; taken at face value the miss would be compression. These volumes, moved between
 /// neighbouring cells near the walls by the remap alone, make up for it (OVERLAP 10): what enters one cell leaves
-/// another, and what cannot be balanced among neighbours stays and is felt as pressure.
+/// another, and what cannot be balanced among neighbours stays and is felt as pressure. Debris is treated the same way:
+/// the water makes room without being pushed, so an element that becomes a particle in one step sends out no shock.
 struct VolumeCorrection {
   struct Face {
     std::ptrdiff_t face;
@@ -34,7 +34,8 @@ struct VolumeCorrection {
 VolumeCorrection correct_volumes(const Grid& grid, const CutGeometry& before, const CutGeometry& after,
                                  const std::vector<StepWall>& walls, double dt, std::vector<std::int32_t>& label);
 
-/// Change of free volume of a wall cell that neither the wall's motion nor debris explains, m^3.
+/// Change of free volume of a cell that the walls' motion does not explain: the miss of the mean areas, particles that
+/// came or went, ice that turned into particles, m^3.
 double unexplained_change(const StepWall& wall, const CutGeometry& before, const CutGeometry& after, double dt);
 
 }  // namespace polynya::fluid

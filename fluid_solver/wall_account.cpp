@@ -1,4 +1,4 @@
-// What the fluid gave to the bodies in a step, and what the change of volume was made of: the walls' motion, debris, and
+// What the fluid gave to the bodies in a step, and what the change of volume was made of: the walls' motion, and
 // the rest that the volume correction could not balance among neighbours.
 #include "fluid_solver/phases.hpp"
 
@@ -16,7 +16,6 @@ void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls, con
         account.wall_work[body] += impulse * wall.velocity[body][axis];
       }
     }
-    account.debris_work -= p * wall.debris_change;
     account.swept_defect += p * unexplained_change(wall, fluid.before, fluid.after, dt);
   }
   for (std::size_t c = 0; c < correction.cells.size(); ++c) {
