@@ -72,7 +72,7 @@ Balance balance(const Conversation& conversation, const Ledger& ledger) {
     const Account& fluid = conversation.fluid->account;
     sum.fluid = fluid.change({"kinetic", "internal", "gravity", "remap_loss", "hourglass", "node_fix"});
     sum.external -= fluid.change({"boundary_work", "boundary_energy"});
-    sum.numerical -= fluid.change({"swept_defect", "debris_work"});
+    sum.numerical -= fluid.change("swept_defect");
     sum.momentum += fluid.change({"momentum_z", "boundary_impulse_z", "gravity_impulse"});
   }
   sum.contact = ledger.contact_stored + ledger.contact_friction + ledger.contact_released;

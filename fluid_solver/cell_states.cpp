@@ -14,7 +14,7 @@ void evaluate_row(const Law& law, double floor, std::ptrdiff_t begin, std::ptrdi
                   const double* __restrict energy, const double* __restrict volume, double* __restrict pressure,
                   double* __restrict bulk_modulus_out, double* __restrict density, double* __restrict sound_speed) {
   for (std::ptrdiff_t c = begin; c < end; ++c) {
-    const bool filled = mass[c] > 0 && volume[c] > 0;
+    const bool filled = mass[c] > void_density * volume[c] && volume[c] > 0;
     const double m = filled ? mass[c] : 1.0, e = filled ? energy[c] : 0.0, v = filled ? volume[c] : 1.0;
     const double rho = m / v;
     const Response r = law(rho, e / m);
@@ -37,7 +37,7 @@ void evaluate_mixed_cell(Fluid& fluid, std::ptrdiff_t c, double volume) {
     mixture.energy[m] = fluid.material[m].energy[c];
     mixture.volume[m] = fluid.material[m].volume[c];
   }
-  if (volume > 0 && (mixture.mass[0] > 0 || mixture.mass[1] > 0)) {
+  if (volume > 0 && mixture.mass[0] + mixture.mass[1] > void_density * volume) {
     state = settle(law, floor, volume, mixture);
     for (int m = 0; m < 2; ++m) {
       fluid.material[m].energy[c] = mixture.energy[m];

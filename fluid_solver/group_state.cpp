@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fluid_solver/phases.hpp"
+#include "fluid_solver/pressure_equilibrium.hpp"
 
 namespace polynya::fluid {
 namespace {
@@ -44,7 +45,7 @@ void evaluate_groups(Fluid& fluid) {
       }
     }
     const double mass = state.content.mass[0] + state.content.mass[1];
-    const bool filled = state.volume > 0 && mass > 0;
+    const bool filled = state.volume > 0 && mass > void_density * state.volume;
     state.height = filled ? moment / state.volume : centre / (fluid.groups.first[g + 1] - fluid.groups.first[g]);
     if (filled) state.point = settle(fluid.setup.law, fluid.setup.pressure_floor, state.volume, state.content);
     const double rho = filled ? mass / state.volume : 0.0;

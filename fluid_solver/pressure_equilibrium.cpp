@@ -79,7 +79,7 @@ PointState equilibrate(const std::array<EquationOfState, 2>& law, const std::arr
 PointState settle(const std::array<EquationOfState, 2>& law, const std::array<double, 2>& floor, double volume, Mixture& mixture) {
   const double held = mixture.volume[0] + mixture.volume[1];
   std::array<bool, 2> active{};
-  for (int m = 0; m < 2; ++m) active[m] = mixture.mass[m] > 0 && mixture.volume[m] > dormant_fraction * held;
+  for (int m = 0; m < 2; ++m) active[m] = mixture.mass[m] > void_density * volume && mixture.volume[m] > dormant_fraction * held;
   if (active[0] && active[1]) {
     for (double& own : mixture.volume) own *= volume / held;
     return equilibrate(law, floor, mixture);

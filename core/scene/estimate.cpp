@@ -77,7 +77,7 @@ double lag_bound(const Scene& scene, double layer_of_ice) {
 void add_fluid(const Scene& scene, Estimate& e) {
   const GridLines lines = fluid_grid_lines(scene);
   e.cells = lines.cells();
-  const double cell = scene.run.fluid_step_factor * scene.resolution.cell;
+  const double cell = 0.5 * scene.run.fluid_step_factor * scene.resolution.cell;
   if (const auto& tube = scene.fluid->tube) {
     double fastest = 0;
     for (const TubeState* side : {&tube->left, &tube->right}) {

@@ -62,7 +62,7 @@ std::vector<KeyRule> general_rules() {
                "latest end; auto: 1.5 (gap + head + 2.6 thickness) / speed, or 1.5 times the way out of the water"),
       positive("run.frame_interval", dim::time, "auto", "between field frames; auto: a thirtieth of `end_time`"),
       positive("run.step_factor", dim::none, "0.9", "fraction of the stable step that the solids use", 1),
-      positive("run.fluid_step_factor", dim::none, "0.5", "fraction of cell / sound speed that the fluid uses", 1),
+      positive("run.fluid_step_factor", dim::none, "1", "fraction of the fluid's stable step (half a cell per sound and flow speed) that it uses", 1),
       positive("run.filter_frequency", dim::frequency, "20 kHz", "low-pass filter of the reported deceleration"),
       number("run.gravity", dim::acceleration, "9.81 m/s^2", "along -z", 0),
       integer("run.seed", "1", "of every random choice", 0),
