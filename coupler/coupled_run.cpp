@@ -40,7 +40,8 @@ struct Run {
   bool contact_ready = false, topology_changed = false;
   std::optional<OverlapExchange> overlap;
   std::optional<Monitor> monitor;
-  double planned_step = 0, next_frame_time = 0;
+  double planned_step = 0, first_planned_step = 0, next_frame_time = 0;
+  bool step_warned = false;
   long frame = 0, cuts = 0;
   std::string end;  ///< why the run ends; empty while it goes on
 
@@ -66,12 +67,27 @@ void refresh_limits(Run& run) {
   if (!(run.limits.solid_stable > 0)) throw std::runtime_error("a solid reports a stable step that is not positive");
 }
 
+/// A step that collapses would never reach the end: says what limits it, and stops when it is hopeless.
+void watch_step(Run& run) {
+  run.first_planned_step = std::max(run.first_planned_step, run.planned_step);
+  if (run.planned_step > run.first_planned_step / 20) return;
+  std::string solids;
+  for (const SolidSide& side : run.conversation.solids)
+    solids += fmt::format("{} {:.2e} s, ", side.name, side.stable_step);
+  const std::string limits = fmt::format("the window has fallen to {:.2e} s at t = {:.4e} s; stable steps: {}fluid {:.2e} s, lag of fluid loads {:.2e} s",
+                                         run.planned_step, run.keeper.time, solids, run.limits.fluid_stable, run.limits.lag_limit);
+  if (run.planned_step < run.first_planned_step / 1000) throw std::runtime_error(limits);
+  if (!run.step_warned) spdlog::warn("{}", limits);
+  run.step_warned = true;
+}
+
 void plan_next_span(Run& run) {
   refresh_limits(run);
   const SpanPlan plan = plan_span(run.limits);
   run.planned_step = plan.step;
   run.keeper.windows_left = plan.windows;
   run.keeper.span_start = run.keeper.time;
+  watch_step(run);
 }
 
 /// Cuts the grid where the solids are now; every hundredth cut is checked against CGAL.

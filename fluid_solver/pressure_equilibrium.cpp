@@ -68,8 +68,7 @@ PointState equilibrate(const std::array<EquationOfState, 2>& law, const std::arr
     const double share = mixture.volume[m] / total / std::max(own.bulk_modulus, 1e-3 * std::max(own.pressure, 1.0));
     compliance += share;
     weighted += share * own.pressure;
-    // A trace of a material may have an energy per mass that rounding has spoilt: its sound speed tells nothing.
-    if (mixture.volume[m] > 1e-3 * total) state.sound_speed = std::max(state.sound_speed, own.sound_speed);
+    state.sound_speed = std::max(state.sound_speed, own.sound_speed);
   }
   state.pressure = weighted / compliance;
   state.bulk_modulus = 1.0 / compliance;
