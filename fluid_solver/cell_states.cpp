@@ -10,7 +10,7 @@ namespace polynya::fluid {
 namespace {
 
 template <class Law>
-void evaluate_row(const Law& law, double floor, std::ptrdiff_t begin, std::ptrdiff_t end, const double* __restrict mass,
+void evaluate_row(const Law& law, double floor, double void_pressure, std::ptrdiff_t begin, std::ptrdiff_t end, const double* __restrict mass,
                   const double* __restrict energy, const double* __restrict volume, double* __restrict pressure,
                   double* __restrict bulk_modulus_out, double* __restrict density, double* __restrict sound_speed) {
   for (std::ptrdiff_t c = begin; c < end; ++c) {
@@ -20,7 +20,7 @@ void evaluate_row(const Law& law, double floor, std::ptrdiff_t begin, std::ptrdi
     const Response r = law(rho, e / m);
     const double bulk = std::max(0.0, rho * r.by_density + r.pressure * r.by_energy * v / m);
     const double p = std::max(r.pressure, floor);
-    pressure[c] = filled ? p : 0.0;
+    pressure[c] = filled ? p : volume[c] > 0 ? void_pressure : 0.0;
     bulk_modulus_out[c] = filled && r.pressure > floor ? bulk : 0.0;
     density[c] = filled ? rho : 0.0;
     sound_speed[c] = filled ? std::sqrt(bulk * v / m) : 0.0;
@@ -43,6 +43,8 @@ void evaluate_mixed_cell(Fluid& fluid, std::ptrdiff_t c, double volume) {
       fluid.material[m].energy[c] = mixture.energy[m];
       fluid.material[m].volume[c] = mixture.volume[m];
     }
+  } else {
+    state.pressure = volume > 0 ? floor[water] : 0.0;
   }
   fluid.pressure[c] = state.pressure;
   fluid.bulk_modulus[c] = state.bulk_modulus;
@@ -72,7 +74,7 @@ void evaluate_cells(Fluid& fluid, const std::vector<double>& volume) {
     const int m = held == 2 ? 1 : 0;
     std::visit(
         [&](const auto& law) {
-          evaluate_row(law, fluid.setup.pressure_floor[m], begin, end, fluid.material[m].mass.data(),
+          evaluate_row(law, fluid.setup.pressure_floor[m], fluid.setup.pressure_floor[water], begin, end, fluid.material[m].mass.data(),
                        fluid.material[m].energy.data(), volume.data(), fluid.pressure.data(), fluid.bulk_modulus.data(),
                        fluid.density.data(), fluid.sound_speed.data());
         },

@@ -51,7 +51,8 @@ void evaluate_groups(Fluid& fluid) {
     const double rho = filled ? mass / state.volume : 0.0;
     const int held = (state.content.mass[0] > 0 ? 1 : 0) | (state.content.mass[1] > 0 ? 2 : 0);
     for (const auto& [c, parent] : members_of(fluid.groups, g)) {
-      fluid.pressure[c] = filled ? state.point.pressure + rho * fluid.setup.gravity * (state.height - height_of(grid, c)) : 0.0;
+      fluid.pressure[c] = filled ? state.point.pressure + rho * fluid.setup.gravity * (state.height - height_of(grid, c))
+                                 : state.volume > 0 ? fluid.setup.pressure_floor[water] : 0.0;
       fluid.density[c] = rho;
       fluid.bulk_modulus[c] = state.point.bulk_modulus;
       fluid.sound_speed[c] = state.point.sound_speed;

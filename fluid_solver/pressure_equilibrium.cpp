@@ -40,7 +40,10 @@ PointState equilibrate(const std::array<EquationOfState, 2>& law, const std::arr
   {
     const Side a = side(law[0], floor[0], initial.mass[0], initial.energy[0], initial.volume[0], 0);
     const Side b = side(law[1], floor[1], initial.mass[1], initial.energy[1], initial.volume[1], 0);
-    exchange = std::max(0.0, a.bulk > 0 && (a.bulk < b.bulk || b.bulk == 0) ? a.pressure : b.pressure);
+    // The softer side sets the pressure of the exchange. A side at its lower bound is partly void: the other expands into
+    // it against that bound only. At the other's pressure the work would go into the little mass there and spoil it.
+    const bool first_yields = a.bulk == 0 || (b.bulk > 0 && a.bulk < b.bulk);
+    exchange = std::max(0.0, first_yields ? a.pressure : b.pressure);
   }
   double low = 0, high = total, x = initial.volume[minor];
   Side small{}, large{};
@@ -68,7 +71,8 @@ PointState equilibrate(const std::array<EquationOfState, 2>& law, const std::arr
     const double share = mixture.volume[m] / total / std::max(own.bulk_modulus, 1e-3 * std::max(own.pressure, 1.0));
     compliance += share;
     weighted += share * own.pressure;
-    state.sound_speed = std::max(state.sound_speed, own.sound_speed);
+    // A trace by mass neither carries waves nor limits the step.
+    if (mixture.mass[m] > 1e-3 * mixture.mass[1 - m]) state.sound_speed = std::max(state.sound_speed, own.sound_speed);
   }
   state.pressure = weighted / compliance;
   state.bulk_modulus = 1.0 / compliance;

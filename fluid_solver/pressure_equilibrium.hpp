@@ -34,7 +34,8 @@ std::array<double, 2> volume_shares(const std::array<EquationOfState, 2>& law, c
 /// Below this fraction of the volume a material is carried along but takes no part in the pressure.
 inline constexpr double dormant_fraction = 1e-9;
 
-/// Fluid thinner than this is a void: traces left by rounding, whose energy per mass tells nothing. kg/m^3
+/// Fluid thinner than this is a void: traces left by rounding, whose energy per mass tells nothing. Vapour fills it: its pressure is
+/// the lower bound of water's. kg/m^3
 inline constexpr double void_density = 1e-6;
 
 }  // namespace polynya::fluid
