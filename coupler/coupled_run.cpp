@@ -41,6 +41,7 @@ struct Run {
   std::optional<OverlapExchange> overlap;
   std::optional<Monitor> monitor;
   double planned_step = 0, first_planned_step = 0, next_frame_time = 0;
+  double logged_lag_limit = 1;  ///< s
   bool step_warned = false;
   long frame = 0, cuts = 0;
   std::string end;  ///< why the run ends; empty while it goes on
@@ -90,6 +91,21 @@ void plan_next_span(Run& run) {
   watch_step(run);
 }
 
+/// Bounds the span by the lag of the fluid's loads on the lightest wall there is.
+void bound_lag(Run& run, const geometry::CutCells& cells) {
+  const LightestWall wall = lightest_wall(run.conversation, cells);
+  const double limit = lag_limit(wall, run.scene);
+  if (limit < 0.8 * run.logged_lag_limit) {
+    run.logged_lag_limit = limit;
+    const geometry::GridLines& grid = run.conversation.fluid->grid;
+    const auto position = grid.cell_position(wall.cell);
+    spdlog::info("t = {:.4e} s: lag of fluid loads bounds the span to {:.2e} s: {} of {:.3f} kg/m^2 in the cell at ({:.4f}, {:.4f}, {:.4f}) m",
+                 run.keeper.time, limit, wall.body == Body::ice ? "ice" : "vehicle", wall.areal_mass,
+                 grid.lines[0][position[0]], grid.lines[1][position[1]], grid.lines[2][position[2]]);
+  }
+  run.limits.lag_limit = limit;
+}
+
 /// Cuts the grid where the solids are now; every hundredth cut is checked against CGAL.
 const geometry::CutCells& cut_grid(Run& run) {
   const auto lap = run.watch.lap("overlap");
@@ -119,7 +135,7 @@ void begin(Run& run, const std::vector<std::string>& names) {
     exchange::Message message("begin");
     message.header["time"] = 0.0;
     add_overlap(message, cells);
-    run.limits.lag_limit = lag_limit(run.conversation, cells, run.scene);
+    bound_lag(run, cells);
     run.conversation.hub.send(fluid.name, std::move(message));
     const exchange::Message answer = run.conversation.hub.receive(fluid.name, "pressure");
     fluid.stable_step = answer.header.at("stable_step").get<double>();
@@ -173,6 +189,7 @@ void exchange_with_fluid(Run& run, bool finish, long frame) {
   fluid.stable_step = answer.header.at("stable_step").get<double>();
   fluid.account.update(answer);
   if (run.keeper.span == 0) {
+    for (SolidSide& side : run.conversation.solids) side.velocity_sum.assign(side.velocity_sum.size(), 0.0);
     // The first span fits the flow of the start to the walls' first motion: no loads come of it, the books open after it.
     fluid.account.set_initial(answer);
     return;
@@ -182,23 +199,45 @@ void exchange_with_fluid(Run& run, bool finish, long frame) {
   run.overlap->give_impulses(run.conversation, at_start, at_end, length, run.ledger);
   if (answer.has("pressure.impulse"))
     run.overlap->give_wall_impulses(run.conversation, answer.view<double>("pressure.impulse"), run.ledger);
+  const double passed = run.keeper.time - run.keeper.span_start;
+  for (SolidSide& side : run.conversation.solids) {
+    for (std::size_t i = 0; i < side.velocity_sum.size(); ++i) side.seen_velocity[i] = side.velocity_sum[i] / passed;
+    side.velocity_sum.assign(side.velocity_sum.size(), 0.0);
+  }
+  if (answer.has("pressure.impedance"))
+    run.overlap->set_impedance(run.conversation, answer.view<double>("pressure.impedance"));
   // Where elements broke away, lighter nodes meet the water now.
-  if (run.topology_changed) run.limits.lag_limit = lag_limit(run.conversation, cells, run.scene);
+  if (run.topology_changed) bound_lag(run, cells);
   run.topology_changed = false;
   run.ledger.fluid_reported = {fluid.account.change("impulse_vehicle_z"), fluid.account.change("impulse_ice_z")};
   run.monitor->note_pressure(cells, at_end);
 }
 
-/// Takes one window's share of the outstanding fluid impulses as forces of this window.
+/// Force of the fluid on a vertex that moves otherwise than the fluid has seen: sound carries the difference away.
+std::array<double, 3> radiation_force(const SolidSide& side, std::size_t v) {
+  const double* z = &side.impedance[6 * v];
+  double u[3];
+  for (int d = 0; d < 3; ++d) u[d] = side.velocities[3 * v + d] - side.seen_velocity[3 * v + d];
+  return {-(z[0] * u[0] + z[3] * u[1] + z[5] * u[2]), -(z[3] * u[0] + z[1] * u[1] + z[4] * u[2]),
+          -(z[5] * u[0] + z[4] * u[1] + z[2] * u[2])};
+}
+
+/// Takes one window's share of the outstanding fluid impulses as forces of this window. Those loads are old by more than
+/// a span, and a wall that oscillates faster would be driven by them. So the change since then is answered at once by the
+/// water's impedance; the impulse of it is taken from what is outstanding, and the fluid's own answer replaces it later.
 void hand_on_fluid_impulse(Run& run, double acting_time) {
+  const double share = 1.0 / static_cast<double>(std::max(1L, run.keeper.windows_left));
   for (SolidSide& side : run.conversation.solids) {
     side.fluid_force.assign(side.fluid_impulse.size(), 0.0);
-    const double share = 1.0 / static_cast<double>(std::max(1L, run.keeper.windows_left));
-    for (std::size_t i = 0; i < side.fluid_impulse.size(); ++i) {
-      const double impulse = share * side.fluid_impulse[i];
-      side.fluid_impulse[i] -= impulse;
-      side.fluid_force[i] = impulse / acting_time;
-      run.ledger.fluid_taken[static_cast<int>(side.body)][i % 3] += impulse;
+    for (std::size_t v = 0; v < side.vertices(); ++v) {
+      const std::array<double, 3> radiation = radiation_force(side, v);
+      for (int d = 0; d < 3; ++d) {
+        const std::size_t i = 3 * v + d;
+        const double impulse = share * side.fluid_impulse[i] + acting_time * radiation[d];
+        side.fluid_impulse[i] -= impulse;
+        side.fluid_force[i] = impulse / acting_time;
+        run.ledger.fluid_taken[static_cast<int>(side.body)][d] += impulse;
+      }
     }
   }
 }
@@ -225,6 +264,8 @@ void advance_window(Run& run) {
     run.work[static_cast<int>(side.body)].settle(side, run.ledger);
     run.topology_changed = run.topology_changed || side.topology_changed;
   }
+  for (SolidSide& side : run.conversation.solids)
+    for (std::size_t i = 0; i < side.velocity_sum.size(); ++i) side.velocity_sum[i] += run.keeper.step * side.velocities[i];
   find_contact(run);
 
   long frame = -1;

@@ -25,7 +25,8 @@ std::vector<results::Column> progress_columns() {
 
 Monitor::Monitor(const scene::Scene& scene, const std::string& run_folder, const Conversation& conversation)
     : scene_(scene), series_(run_folder + "/series/coupler.csv", progress_columns()),
-      scale_(symmetry_scale(scene.symmetry)) {
+      scale_(symmetry_scale(scene.symmetry)),
+      atmospheric_pressure_(scene.fluid ? scene.fluid->atmospheric_pressure : 0.0) {
   read_vehicle(conversation);
   initial_speed_ = speed_;
   if (const SolidSide* vehicle = conversation.find(Body::vehicle)) {
@@ -57,7 +58,7 @@ void Monitor::note_pressure(const geometry::CutCells& cells, const WallPressure&
   peak_wall_pressure_ = std::max(peak_wall_pressure_, wall_pressure_);
 }
 
-Balance balance(const Conversation& conversation, const Ledger& ledger) {
+Balance balance(const Conversation& conversation, const Ledger& ledger, double atmospheric_pressure) {
   Balance sum;
   for (const SolidSide& side : conversation.solids) {
     double& stored = side.body == Body::vehicle ? sum.vehicle : sum.ice;
@@ -72,6 +73,8 @@ Balance balance(const Conversation& conversation, const Ledger& ledger) {
     const Account& fluid = conversation.fluid->account;
     sum.fluid = fluid.change({"kinetic", "internal", "gravity", "remap_loss", "hourglass", "node_fix"});
     sum.external -= fluid.change({"boundary_work", "boundary_energy"});
+    // The fluid works on walls with absolute pressure, solids count from the atmosphere: their insides hold against it.
+    sum.external -= atmospheric_pressure * fluid.change({"swept_volume_vehicle", "swept_volume_ice"});
     sum.numerical -= fluid.change("swept_defect");
     sum.momentum += fluid.change({"momentum_z", "boundary_impulse_z", "gravity_impulse"});
   }
@@ -88,7 +91,7 @@ void Monitor::append_row(const TimeKeeper& keeper, const Conversation& conversat
   const Account& v = vehicle ? vehicle->account : nothing;
   const Account& i = ice ? ice->account : nothing;
 
-  const Balance sum = balance(conversation, ledger);
+  const Balance sum = balance(conversation, ledger, atmospheric_pressure_);
   const double energy_error = initial_kinetic_ > 0 ? std::abs(sum.energy_defect()) / initial_kinetic_ : 0;
   const double momentum_error = initial_momentum_ != 0 ? std::abs(sum.momentum / initial_momentum_) : 0;
   largest_energy_error_ = std::max(largest_energy_error_, energy_error);
@@ -117,7 +120,7 @@ void Monitor::append_row(const TimeKeeper& keeper, const Conversation& conversat
 
 nlohmann::json Monitor::summary(const TimeKeeper& keeper, const Conversation& conversation,
                                 const Ledger& ledger) const {
-  const Balance sum = balance(conversation, ledger);
+  const Balance sum = balance(conversation, ledger, atmospheric_pressure_);
   nlohmann::json summary;
   summary["end_time"] = keeper.time;
   summary["windows"] = keeper.window;

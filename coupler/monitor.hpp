@@ -44,6 +44,7 @@ class Monitor {
   const scene::Scene& scene_;
   results::TimeSeries series_;
   double scale_ = 1;  ///< full model over modelled part
+  double atmospheric_pressure_ = 0;
   double initial_kinetic_ = 0, initial_momentum_ = 0, initial_speed_ = 0;
   double nose_ = 0, speed_ = 0, mass_ = 0;
   double largest_energy_error_ = 0, largest_momentum_error_ = 0;
@@ -53,6 +54,6 @@ class Monitor {
 };
 
 /// Changes of all reservoirs since the start.
-Balance balance(const Conversation& conversation, const Ledger& ledger);
+Balance balance(const Conversation& conversation, const Ledger& ledger, double atmospheric_pressure);
 
 }  // namespace polynya::coupler

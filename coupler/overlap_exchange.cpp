@@ -94,6 +94,22 @@ void OverlapExchange::give_wall_impulses(Conversation& conversation, std::span<c
   }
 }
 
+void OverlapExchange::set_impedance(Conversation& conversation, std::span<const double> impedance) const {
+  for (SolidSide& side : conversation.solids) {
+    side.impedance.assign(6 * side.vertices(), 0.0);
+    for (const geometry::WallPiece& piece : now_.cells.pieces) {
+      const double size = contact::norm(piece.area);
+      if (piece.body != static_cast<std::int32_t>(side.body) || size == 0 || impedance[piece.entry] == 0) continue;
+      const double n[3] = {piece.area[0] / size, piece.area[1] / size, piece.area[2] / size};
+      const double products[6] = {n[0] * n[0], n[1] * n[1], n[2] * n[2], n[0] * n[1], n[1] * n[2], n[2] * n[0]};
+      const std::int32_t* v = &side.triangles[3 * static_cast<std::size_t>(piece.triangle)];
+      for (int i = 0; i < 3; ++i)
+        for (int c = 0; c < 6; ++c)
+          side.impedance[6 * static_cast<std::size_t>(v[i]) + c] += impedance[piece.entry] * size * piece.weights[i] * products[c];
+    }
+  }
+}
+
 double OverlapExchange::verify_sample(std::uint64_t seed, std::size_t count) const {
   return geometry::verify_sample(now_.cells, now_.views(), cutter_.grid(), seed, count);
 }

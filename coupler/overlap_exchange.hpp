@@ -25,6 +25,9 @@ class OverlapExchange {
   /// over the cell's pieces of wall by area.
   void give_wall_impulses(Conversation& conversation, std::span<const double> impulse, Ledger& ledger) const;
 
+  /// Spreads the fluid's impedance at each cell's wall ([entries of the last cut], kg/(m^2 s)) over the vertices.
+  void set_impedance(Conversation& conversation, std::span<const double> impedance) const;
+
   const geometry::CutCells& before() const { return before_.cells; }
 
   /// Recuts a seeded sample of cells by CGAL's exact kernel. Returns the largest difference relative to the cell's

@@ -63,6 +63,27 @@ std::size_t nearest_vertex(const SolidSide& side, const double* p) {
   return best;
 }
 
+/// Where each vertex of a new surface stood in the old one.
+class Renumbering {
+ public:
+  Renumbering(const std::vector<std::int64_t>& old_ids, const std::vector<std::int64_t>& ids) : from_(ids.size(), -1) {
+    std::unordered_map<std::int64_t, std::ptrdiff_t> index;
+    index.reserve(old_ids.size());
+    for (std::size_t v = 0; v < old_ids.size(); ++v) index[old_ids[v]] = static_cast<std::ptrdiff_t>(v);
+    for (std::size_t v = 0; v < ids.size(); ++v)
+      if (const auto found = index.find(ids[v]); found != index.end()) from_[v] = found->second;
+  }
+  /// Rows of `old`, those of `otherwise` for vertices that are new.
+  std::vector<double> carry(const std::vector<double>& old, std::size_t width, std::vector<double> otherwise) const {
+    for (std::size_t v = 0; v < from_.size(); ++v)
+      if (from_[v] >= 0) std::copy_n(old.begin() + from_[v] * static_cast<std::ptrdiff_t>(width), width, otherwise.begin() + static_cast<std::ptrdiff_t>(v * width));
+    return otherwise;
+  }
+
+ private:
+  std::vector<std::ptrdiff_t> from_;
+};
+
 }  // namespace
 
 void add_fluid_impulses(SolidSide& side, std::span<const std::int64_t> ids, std::span<const double> positions,
@@ -94,6 +115,9 @@ void read_ready(SolidSide& side, const exchange::Message& ready) {
   side.fluid_impulse.assign(3 * side.vertices(), 0.0);
   side.contact_force.assign(3 * side.vertices(), 0.0);
   side.fluid_force.assign(3 * side.vertices(), 0.0);
+  side.impedance.assign(6 * side.vertices(), 0.0);
+  side.seen_velocity = side.velocities;
+  side.velocity_sum.assign(3 * side.vertices(), 0.0);
 }
 
 void read_surface(SolidSide& side, const exchange::Message& surface) {
@@ -107,10 +131,16 @@ void read_surface(SolidSide& side, const exchange::Message& surface) {
   const std::vector<std::int64_t> old_ids = side.ids;
   const std::vector<double> old_positions = side.positions;
   const std::vector<double> old_impulse = std::move(side.fluid_impulse);
+  const std::vector<double> old_impedance = std::move(side.impedance), old_seen = std::move(side.seen_velocity),
+                            old_sum = std::move(side.velocity_sum);
   read_topology(side, surface);
   read_motion(side, surface);
   side.fluid_impulse.assign(3 * side.vertices(), 0.0);
   add_fluid_impulses(side, old_ids, old_positions, old_impulse);
+  const Renumbering renumbering(old_ids, side.ids);
+  side.impedance = renumbering.carry(old_impedance, 6, std::vector<double>(6 * side.vertices(), 0.0));
+  side.seen_velocity = renumbering.carry(old_seen, 3, side.velocities);
+  side.velocity_sum = renumbering.carry(old_sum, 3, std::vector<double>(3 * side.vertices(), 0.0));
 }
 
 exchange::Message make_loads(const SolidSide& side) {

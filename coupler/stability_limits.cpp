@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <limits>
 
 #include "core/contact/vector3.hpp"
 
@@ -52,30 +51,31 @@ double smallest_face(const geometry::GridLines& grid, std::int64_t cell) {
 
 }  // namespace
 
-double least_areal_mass(const SolidSide& side, const geometry::CutCells& cut, const geometry::GridLines& grid) {
-  const std::vector<double> areal_mass = vertex_areal_mass(side);
-  std::vector<double> area(cut.cell.size(), 0.0), mass(cut.cell.size(), 0.0);
-  for (const geometry::WallPiece& piece : cut.pieces) {
-    if (piece.body != static_cast<std::int32_t>(side.body)) continue;
-    const double size = contact::norm(piece.area);
-    const std::int32_t* v = &side.triangles[3 * static_cast<std::size_t>(piece.triangle)];
-    area[piece.entry] += size;
-    for (int i = 0; i < 3; ++i) mass[piece.entry] += size * piece.weights[i] * areal_mass[v[i]];
+LightestWall lightest_wall(const Conversation& conversation, const geometry::CutCells& cut) {
+  const geometry::GridLines& grid = conversation.fluid->grid;
+  LightestWall lightest;
+  for (const SolidSide& side : conversation.solids) {
+    const std::vector<double> vertex_mass = vertex_areal_mass(side);
+    std::vector<double> area(cut.cell.size(), 0.0), mass(cut.cell.size(), 0.0);
+    for (const geometry::WallPiece& piece : cut.pieces) {
+      if (piece.body != static_cast<std::int32_t>(side.body)) continue;
+      const double size = contact::norm(piece.area);
+      const std::int32_t* v = &side.triangles[3 * static_cast<std::size_t>(piece.triangle)];
+      area[piece.entry] += size;
+      for (int i = 0; i < 3; ++i) mass[piece.entry] += size * piece.weights[i] * vertex_mass[v[i]];
+    }
+    for (std::size_t e = 0; e < cut.cell.size(); ++e) {
+      if (area[e] <= 0.1 * smallest_face(grid, cut.cell[e]) || on_outer_side(grid, cut.cell[e])) continue;
+      const double areal = mass[e] / area[e], bound = lag_factor(side.body) * areal;
+      if (bound < lightest.bound) lightest = {bound, areal, cut.cell[e], side.body};
+    }
   }
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t e = 0; e < cut.cell.size(); ++e)
-    if (area[e] > 0.1 * smallest_face(grid, cut.cell[e]) && !on_outer_side(grid, cut.cell[e]))
-      least = std::min(least, mass[e] / area[e]);
-  return least;
+  return lightest;
 }
 
-double lag_limit(const Conversation& conversation, const geometry::CutCells& cut, const scene::Scene& scene) {
+double lag_limit(const LightestWall& wall, const scene::Scene& scene) {
   const scene::MaterialCard& water = scene.material(scene.fluid->water);
-  const double impedance = water.values.at("density") * water.values.at("sound_speed");
-  double least = std::numeric_limits<double>::infinity();
-  for (const SolidSide& side : conversation.solids)
-    least = std::min(least, least_areal_mass(side, cut, conversation.fluid->grid));
-  return 0.5 * least / impedance;
+  return wall.bound / (water.values.at("density") * water.values.at("sound_speed"));
 }
 
 }  // namespace polynya::coupler

@@ -1,16 +1,27 @@
 #pragma once
+#include <limits>
+
 #include "core/scene/scene.hpp"
 #include "coupler/conversation.hpp"
 
 namespace polynya::coupler {
 
-/// Smallest areal mass of the node layer behind the wall of a cut cell, kg/m^2: the mean of (vertex mass / vertex area)
-/// over the pieces of wall in the cell, because one pressure acts on all of them. Cells with little wall (under a tenth
-/// of their smallest face) and cells along the grid's outer sides do not count.
-double least_areal_mass(const SolidSide& side, const geometry::CutCells& cut, const geometry::GridLines& grid);
+/// The wall that bounds the span: the mean over a cell's pieces of wall of (vertex mass / vertex area), because one
+/// pressure acts on all of them, times the `lag_factor` of the body. Cells with little wall (under a tenth of their
+/// smallest face) and cells along the grid's outer sides do not count.
+struct LightestWall {
+  double bound = std::numeric_limits<double>::infinity();  ///< factor x areal mass, kg/m^2
+  double areal_mass = 0;                                   ///< kg/m^2
+  std::int64_t cell = -1;
+  Body body = Body::vehicle;
+};
+LightestWall lightest_wall(const Conversation& conversation, const geometry::CutCells& cut);
 
-/// Longest span that lagged fluid loads bear: rho_f c dt < 0.5 x areal mass of the lightest surface node layer
-///, s.
-double lag_limit(const Conversation& conversation, const geometry::CutCells& cut, const scene::Scene& scene);
+/// Largest rho_f c dt / m' of a span. A free wall whose change of speed is answered at once is stable beyond 2
+/// (tests/coupler/lagged_loads_test.cpp); a thin elastic hull oscillates through its wall within a span and needs more.
+inline constexpr double lag_factor(Body body) { return body == Body::vehicle ? 0.7 : 2.0; }
+
+/// Longest span that lagged fluid loads bear, s.
+double lag_limit(const LightestWall& wall, const scene::Scene& scene);
 
 }  // namespace polynya::coupler

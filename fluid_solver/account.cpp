@@ -10,7 +10,7 @@ const std::vector<std::string>& account_names() {
       "impulse_vehicle_x", "impulse_vehicle_y", "impulse_vehicle_z", "impulse_ice_x", "impulse_ice_y", "impulse_ice_z",
       "boundary_impulse_x", "boundary_impulse_y", "boundary_impulse_z",
       "node_fix_impulse_x", "node_fix_impulse_y", "node_fix_impulse_z", "gravity_impulse",
-      "mass_water", "mass_air", "boundary_mass_water", "boundary_mass_air", "released_room"};
+      "mass_water", "mass_air", "boundary_mass_water", "boundary_mass_air", "released_room", "swept_volume_vehicle", "swept_volume_ice"};
   return names;
 }
 
@@ -22,7 +22,7 @@ std::vector<double> account_values(const Account& a) {
           a.body_impulse[1][0], a.body_impulse[1][1], a.body_impulse[1][2],
           a.boundary_impulse[0], a.boundary_impulse[1], a.boundary_impulse[2],
           a.node_fix_impulse[0], a.node_fix_impulse[1], a.node_fix_impulse[2], a.gravity_impulse,
-          a.mass[0], a.mass[1], a.boundary_mass[0], a.boundary_mass[1], a.released_room};
+          a.mass[0], a.mass[1], a.boundary_mass[0], a.boundary_mass[1], a.released_room, a.swept_volume[0], a.swept_volume[1]};
 }
 
 }  // namespace polynya::fluid

@@ -15,7 +15,8 @@ struct Account {
   double node_fix = 0;           ///< kinetic energy removed from nodes nearly covered by solid and at walls
   double boundary_work = 0;      ///< pressure on open boundaries
   double boundary_energy = 0;    ///< internal energy carried out through open boundaries
-  std::array<double, 2> wall_work{};  ///< into vehicle and ice
+  std::array<double, 2> wall_work{};     ///< into vehicle and ice, by absolute pressure
+  std::array<double, 2> swept_volume{};  ///< that the walls of vehicle and ice gave way, m^3
   double swept_defect = 0;       ///< pressure times the change of volume, debris too, that is neither wall motion nor balanced
                                  ///< among neighbours
   double released_room = 0;      ///< volume that breaking solids left at once, m^3

@@ -58,8 +58,13 @@ void start(const scene::Scene& scene, Fluid& fluid, const Overlap& overlap) {
                fluid.account.mass[air], stable_step(fluid), fluid.groups.count());
 }
 
-/// Walls stand in the order of the overlap's cells.
-void add_impulse(exchange::Message& message, const Fluid& fluid) {
+/// Walls stand in the order of the overlap's cells. A wall that moves in a fluid which cavitates meets no resistance.
+void add_impulse_and_impedance(exchange::Message& message, const Fluid& fluid) {
+  std::vector<double> impedance;
+  impedance.reserve(fluid.after.walls.size());
+  for (const WallPiece& wall : fluid.after.walls)
+    impedance.push_back(fluid.bulk_modulus[wall.cell] > 0 ? fluid.density[wall.cell] * fluid.sound_speed[wall.cell] : 0.0);
+  message.add<double>("pressure.impedance", {static_cast<std::int64_t>(impedance.size())}, impedance);
   std::vector<double> impulse;
   impulse.reserve(6 * fluid.wall_impulse.size());
   for (const auto& bodies : fluid.wall_impulse)
@@ -117,7 +122,7 @@ void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant&
     exchange::Message answer = make_pressure(fluid, next);
     answer.header["span"] = span.header.value("span", 0L);
     add_pressure(answer, fluid, overlap, "pressure.previous_");
-    add_impulse(answer, fluid);
+    add_impulse_and_impedance(answer, fluid);
     coupler.send(std::move(answer));
     overlap = std::move(next);
     output.record(fluid, dt);

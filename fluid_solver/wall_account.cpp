@@ -14,6 +14,7 @@ void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls, con
         const double impulse = dt * p * wall.area[body][axis];
         account.body_impulse[body][axis] += impulse;
         account.wall_work[body] += impulse * wall.velocity[body][axis];
+        account.swept_volume[body] += dt * wall.area[body][axis] * wall.velocity[body][axis];
       }
     }
     account.swept_defect += p * unexplained_change(wall, fluid.before, fluid.after, dt);
