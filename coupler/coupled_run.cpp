@@ -210,7 +210,7 @@ void exchange_with_fluid(Run& run, bool finish, long frame) {
   if (run.topology_changed) bound_lag(run, cells);
   run.topology_changed = false;
   run.ledger.fluid_reported = {fluid.account.change("impulse_vehicle_z"), fluid.account.change("impulse_ice_z")};
-  run.monitor->note_pressure(cells, at_end);
+  run.monitor->note_pressure(cells, fluid.grid, at_end);
 }
 
 /// Force of the fluid on a vertex that moves otherwise than the fluid has seen: sound carries the difference away.

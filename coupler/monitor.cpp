@@ -17,7 +17,7 @@ std::vector<results::Column> progress_columns() {
           {"fluid_force", "N"}, {"head_stress", "Pa"}, {"vehicle_kinetic", "J"}, {"vehicle_internal", "J"},
           {"ice_kinetic", "J"}, {"ice_internal", "J"}, {"fluid_energy_change", "J"}, {"contact_energy", "J"},
           {"dissipated", "J"}, {"external_work", "J"}, {"numerical_work", "J"}, {"broken_ice_mass", "kg"},
-          {"converted_elements", ""}, {"particles", ""}, {"wall_pressure", "Pa"}, {"contact_depth", "m"},
+          {"converted_elements", ""}, {"particles", ""}, {"wall_pressure", "Pa"}, {"head_pressure", "Pa"}, {"contact_depth", "m"},
           {"fluid_step", "s"}, {"window_step", "s"}};
 }
 
@@ -48,13 +48,22 @@ void Monitor::note_contact(const contact::ContactForces& forces) {
   deepest_contact_ = std::max(deepest_contact_, forces.deepest);
 }
 
-void Monitor::note_pressure(const geometry::CutCells& cells, const WallPressure& pressure) {
+void Monitor::note_pressure(const geometry::CutCells& cells, const geometry::GridLines& grid,
+                            const WallPressure& pressure) {
   wall_pressure_ = 0;
+  double head_area = 0, head_sum = 0;
   constexpr auto vehicle = static_cast<std::size_t>(Body::vehicle);
+  const double shoulder = scene_.vehicle ? nose_ - scene_.vehicle->head_length : nose_;
   for (std::size_t e = 0; e < cells.cell.size(); ++e) {
     const double* area = &cells.wall_area[(e * body_count + vehicle) * 3];
-    if (area[0] != 0 || area[1] != 0 || area[2] != 0) wall_pressure_ = std::max(wall_pressure_, pressure.value[e]);
+    const double size = std::sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+    if (size == 0) continue;
+    wall_pressure_ = std::max(wall_pressure_, pressure.value[e]);
+    if (grid.lines[2][static_cast<std::size_t>(grid.cell_position(cells.cell[e])[2]) + 1] < shoulder) continue;
+    head_area += size;
+    head_sum += size * pressure.value[e];
   }
+  head_pressure_ = head_area > 0 ? head_sum / head_area : 0.0;
   peak_wall_pressure_ = std::max(peak_wall_pressure_, wall_pressure_);
 }
 
@@ -113,7 +122,7 @@ void Monitor::append_row(const TimeKeeper& keeper, const Conversation& conversat
                         scale_ * (i["internal"] + i["particle_internal"]), scale_ * sum.fluid, scale_ * sum.contact,
                         scale_ * (ledger.contact_friction + i["viscous"] + i["hourglass"] + i["conversion_heat"]),
                         scale_ * sum.external, scale_ * sum.numerical, scale_ * i["broken_mass"],
-                        i["converted_elements"], i["particles"], wall_pressure_, deepest_contact_,
+                        i["converted_elements"], i["particles"], wall_pressure_, head_pressure_, deepest_contact_,
                         keeper.time - keeper.span_start, window_step};
   series_.append(row);
 }

@@ -29,8 +29,8 @@ class Monitor {
   Monitor(const scene::Scene& scene, const std::string& run_folder, const Conversation& conversation);
 
   void note_contact(const contact::ContactForces& forces);
-  /// Largest gauge pressure on the vehicle's wall.
-  void note_pressure(const geometry::CutCells& cells, const WallPressure& pressure);
+  /// Gauge pressure on the vehicle's wall: the largest of any cell, and the mean over the head by area.
+  void note_pressure(const geometry::CutCells& cells, const geometry::GridLines& grid, const WallPressure& pressure);
 
   double nose() const { return nose_; }    ///< m
   double speed() const { return speed_; }  ///< m/s, of the centre of mass, upward
@@ -48,7 +48,7 @@ class Monitor {
   double initial_kinetic_ = 0, initial_momentum_ = 0, initial_speed_ = 0;
   double nose_ = 0, speed_ = 0, mass_ = 0;
   double largest_energy_error_ = 0, largest_momentum_error_ = 0;
-  double peak_head_stress_ = 0, peak_wall_pressure_ = 0, wall_pressure_ = 0, deepest_contact_ = 0;
+  double peak_head_stress_ = 0, peak_wall_pressure_ = 0, wall_pressure_ = 0, head_pressure_ = 0, deepest_contact_ = 0;
   Impulse contact_before_{}, fluid_before_{};
   double time_before_ = 0;
 };

@@ -102,8 +102,12 @@ class WithoutIce(unittest.TestCase):
         with scratch() as folder:
             summary_of(polynya("run", "cases/vehicle_in_water", "--set", "run.end_time=0.1 ms", "--out", f"{folder}/run",
                                "--json", "--no-pictures"))
-            pressure = series(f"{folder}/run/series/coupler.csv")["wall_pressure"]
-        self.assertLess(max(pressure), 1.2 * 0.5 * 1000 * 40**2)
+            columns = series(f"{folder}/run/series/coupler.csv")
+        # Over the head; single cells are noisier (docs/limits.md).
+        self.assertLess(max(columns["head_pressure"]), 1.2 * 0.5 * 1000 * 40**2)
+        self.assertGreater(max(columns["head_pressure"]), 0.05 * 0.5 * 1000 * 40**2)
+        # The 59 MPa would stop the vehicle by 3 m/s in the time sound needs along the domain.
+        self.assertGreater(columns["vehicle_speed"][-1], 39)
 
 
 if __name__ == "__main__":
