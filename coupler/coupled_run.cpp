@@ -42,6 +42,7 @@ struct Run {
   std::optional<Monitor> monitor;
   double planned_step = 0, first_planned_step = 0, next_frame_time = 0;
   double logged_lag_limit = 1;  ///< s
+  double slowest_answer = 1;    ///< s, longest span that lets the fluid follow the fastest motion of the intact ice
   bool step_warned = false;
   long frame = 0, cuts = 0;
   std::string end;  ///< why the run ends; empty while it goes on
@@ -103,7 +104,7 @@ void bound_lag(Run& run, const geometry::CutCells& cells) {
                  run.keeper.time, limit, wall.body == Body::ice ? "ice" : "vehicle", wall.areal_mass,
                  grid.lines[0][position[0]], grid.lines[1][position[1]], grid.lines[2][position[2]]);
   }
-  run.limits.lag_limit = limit;
+  run.limits.lag_limit = std::min(limit, run.slowest_answer);
 }
 
 /// Cuts the grid where the solids are now; every hundredth cut is checked against CGAL.
@@ -135,6 +136,7 @@ void begin(Run& run, const std::vector<std::string>& names) {
     exchange::Message message("begin");
     message.header["time"] = 0.0;
     add_overlap(message, cells);
+    if (const SolidSide* ice = run.conversation.find(Body::ice)) run.slowest_answer = ice_share_of_step * ice->stable_step;
     bound_lag(run, cells);
     run.conversation.hub.send(fluid.name, std::move(message));
     const exchange::Message answer = run.conversation.hub.receive(fluid.name, "pressure");
@@ -188,8 +190,11 @@ void exchange_with_fluid(Run& run, bool finish, long frame) {
   const exchange::Message answer = run.conversation.hub.receive(fluid.name, "pressure");
   fluid.stable_step = answer.header.at("stable_step").get<double>();
   fluid.account.update(answer);
+  for (SolidSide& side : run.conversation.solids) {
+    side.seen_velocity = side.mean_velocity();
+    side.restart_mean();
+  }
   if (run.keeper.span == 0) {
-    for (SolidSide& side : run.conversation.solids) side.velocity_sum.assign(side.velocity_sum.size(), 0.0);
     // The first span fits the flow of the start to the walls' first motion: no loads come of it, the books open after it.
     fluid.account.set_initial(answer);
     return;
@@ -199,11 +204,6 @@ void exchange_with_fluid(Run& run, bool finish, long frame) {
   run.overlap->give_impulses(run.conversation, at_start, at_end, length, run.ledger);
   if (answer.has("pressure.impulse"))
     run.overlap->give_wall_impulses(run.conversation, answer.view<double>("pressure.impulse"), run.ledger);
-  const double passed = run.keeper.time - run.keeper.span_start;
-  for (SolidSide& side : run.conversation.solids) {
-    for (std::size_t i = 0; i < side.velocity_sum.size(); ++i) side.seen_velocity[i] = side.velocity_sum[i] / passed;
-    side.velocity_sum.assign(side.velocity_sum.size(), 0.0);
-  }
   if (answer.has("pressure.impedance"))
     run.overlap->set_impedance(run.conversation, answer.view<double>("pressure.impedance"));
   // Where elements broke away, lighter nodes meet the water now.
@@ -264,8 +264,7 @@ void advance_window(Run& run) {
     run.work[static_cast<int>(side.body)].settle(side, run.ledger);
     run.topology_changed = run.topology_changed || side.topology_changed;
   }
-  for (SolidSide& side : run.conversation.solids)
-    for (std::size_t i = 0; i < side.velocity_sum.size(); ++i) side.velocity_sum[i] += run.keeper.step * side.velocities[i];
+  for (SolidSide& side : run.conversation.solids) side.add_to_mean(run.keeper.step);
   find_contact(run);
 
   long frame = -1;

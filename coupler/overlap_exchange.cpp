@@ -23,7 +23,7 @@ const geometry::CutCells& OverlapExchange::cut(const Conversation& conversation)
     surface.body = side.body;
     surface.ids = side.ids;
     surface.positions = side.positions;
-    surface.velocities = side.velocities;
+    surface.velocities = side.mean_velocity();  // areas times mean velocity are the swept volume
     surface.triangles = side.triangles;
   }
   cutter_.cut(now_.views(), now_.cells);

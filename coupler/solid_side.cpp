@@ -140,7 +140,26 @@ void read_surface(SolidSide& side, const exchange::Message& surface) {
   const Renumbering renumbering(old_ids, side.ids);
   side.impedance = renumbering.carry(old_impedance, 6, std::vector<double>(6 * side.vertices(), 0.0));
   side.seen_velocity = renumbering.carry(old_seen, 3, side.velocities);
-  side.velocity_sum = renumbering.carry(old_sum, 3, std::vector<double>(3 * side.vertices(), 0.0));
+  std::vector<double> as_if_always_so = side.velocities;
+  for (double& value : as_if_always_so) value *= side.sum_time;
+  side.velocity_sum = renumbering.carry(old_sum, 3, std::move(as_if_always_so));
+}
+
+std::vector<double> SolidSide::mean_velocity() const {
+  if (sum_time <= 0) return velocities;
+  std::vector<double> mean = velocity_sum;
+  for (double& value : mean) value /= sum_time;
+  return mean;
+}
+
+void SolidSide::add_to_mean(double step) {
+  for (std::size_t i = 0; i < velocity_sum.size(); ++i) velocity_sum[i] += step * velocities[i];
+  sum_time += step;
+}
+
+void SolidSide::restart_mean() {
+  velocity_sum.assign(velocity_sum.size(), 0.0);
+  sum_time = 0;
 }
 
 exchange::Message make_loads(const SolidSide& side) {

@@ -31,7 +31,13 @@ struct SolidSide {
   std::vector<double> fluid_impulse;     ///< N s, given by the fluid and not yet handed on
   std::vector<double> impedance;         ///< [nv][6] kg/s: xx, yy, zz, xy, yz, zx; resistance of the fluid to a vertex
   std::vector<double> seen_velocity;     ///< m/s, mean over the span that the fluid answered last
-  std::vector<double> velocity_sum;      ///< m, integral of the velocity over the current span
+  std::vector<double> velocity_sum;      ///< m, integral of the velocity over the current span so far
+  double sum_time = 0;                   ///< s, of that integral
+
+  /// Mean velocity over the current span so far, [nv][3] m/s.
+  std::vector<double> mean_velocity() const;
+  void add_to_mean(double step);
+  void restart_mean();
 
   std::size_t vertices() const { return ids.size(); }
 };

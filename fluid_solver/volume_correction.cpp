@@ -8,7 +8,7 @@ namespace {
 
 constexpr int layers = 2;              ///< of cells around those that hold walls
 constexpr double least_weight = 0.05;  ///< of a closed face between two cells with fluid (OVERLAP 10)
-constexpr double tolerance = 1e-10;    ///< of a cell's volume: with water's stiffness a fraction of a pascal
+constexpr double tolerance = 1e-9;     ///< of a cell's volume: with water's stiffness about two pascal
 constexpr int most_iterations = 200;
 
 struct Link {
@@ -18,10 +18,12 @@ struct Link {
 
 class Network {
  public:
+  /// Cells around the walls whose change of volume is not explained to the tolerance.
   Network(const Grid& grid, const CutGeometry& before, const CutGeometry& after, const std::vector<StepWall>& walls,
-          std::vector<std::int32_t>& label)
+          double dt, std::vector<std::int32_t>& label)
       : grid_(grid), before_(before), after_(after), label_(label) {
-    for (const StepWall& wall : walls) add(wall.cell);
+    for (const StepWall& wall : walls)
+      if (std::abs(unexplained_change(wall, before, after, dt)) > tolerance * full_volume(grid, wall.cell)) add(wall.cell);
     std::size_t from = 0;
     for (int layer = 0; layer < layers; ++layer) {
       const std::size_t to = cells.size();
@@ -155,7 +157,7 @@ VolumeCorrection correct_volumes(const Grid& grid, const CutGeometry& before, co
                                  const std::vector<StepWall>& walls, double dt, std::vector<std::int32_t>& label) {
   VolumeCorrection correction;
   if (walls.empty()) return correction;
-  const Network network(grid, before, after, walls, label);
+  const Network network(grid, before, after, walls, dt, label);
   std::vector<double> source(network.cells.size(), 0.0);
   for (const StepWall& wall : walls) {
     if (label[wall.cell] >= 0) source[label[wall.cell]] = -unexplained_change(wall, before, after, dt);

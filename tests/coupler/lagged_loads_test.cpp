@@ -46,3 +46,8 @@ TEST(LaggedLoads, AnsweringTheChangeAtOnceKeepsThoseWallsQuiet) {
   for (const double frequency : {2.5, 3.0, 4.0, 5.0, 6.0})
     for (const double impedance : {0.1, 0.4, 1.0}) EXPECT_LT(growth(impedance, frequency, 5, 1), 1.0) << frequency;
 }
+
+TEST(LaggedLoads, SpanOfHalfTheStableStepDoesNotDriveTheFastestMotionOfTheIce) {
+  for (const double impedance : {0.1, 0.4, 1.0, 2.0}) EXPECT_LT(growth(impedance, 1.0, 5, 1), 1.0) << impedance;
+  EXPECT_GT(growth(0.4, 1.6, 5, 1), 100);
+}
