@@ -47,6 +47,14 @@ def resolve(file: Path, level: str | None, settings: list[str], explain: bool = 
         raise Failure(f"resolve_scene wrote something that is not JSON: {error}") from None
 
 
+def refuse_what_does_not_fit(scene: dict) -> None:
+    """Raises WrongInput if the estimate says that memory or disk do not suffice."""
+    estimate = scene["estimate"]
+    if not estimate["fits"]:
+        raise WrongInput(f"{scene['name']} does not fit this machine: {estimate['reason']}; coarser cells "
+                         "(resolution.cell, --level) or a smaller domain would")
+
+
 def participants(scene: dict) -> list[str]:
     """The solvers that a resolved scene needs, in the order in which they are started."""
     named = scene.get("participants") or {}

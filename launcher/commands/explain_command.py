@@ -21,6 +21,7 @@ def run(arguments: argparse.Namespace) -> int:
         print(json.dumps({**{key: scene.get(key) for key in keys}, "processes": programs}))
     else:
         print_explanation(scene, programs)
+    scenes.refuse_what_does_not_fit(scene)
     return DONE
 
 

@@ -18,7 +18,9 @@ from launcher.supervise import Outcome, Supervisor
 def run(arguments: argparse.Namespace) -> int:
     file = scenes.find(arguments.scene)
     build.build(["resolve_scene"])
-    scene = scenes.resolve(file, arguments.level, arguments.settings)
+    scene = scenes.resolve(file, arguments.level, arguments.settings, explain=True)
+    scenes.refuse_what_does_not_fit(scene)
+    del scene["estimate"]
     names = scenes.participants(scene)
     folder = run_folder.choose(arguments.out, scene)
     run_folder.check(folder)

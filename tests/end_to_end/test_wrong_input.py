@@ -32,6 +32,10 @@ class WrongInput(unittest.TestCase):
     def test_impossible_value(self):
         self.refused("explain", "cases/water_exit", "--set", "ice.thickness=-1 mm", says=["ice.thickness"])
 
+    def test_scene_that_does_not_fit_the_machine(self):
+        for command in ("run", "explain"):
+            self.refused(command, "cases/water_exit", "--set", "resolution.cell=0.02 mm", says=["memory", "fit"])
+
     def test_participant_that_never_comes(self):
         """A coupler alone names those that are missing."""
         with scratch() as folder:
