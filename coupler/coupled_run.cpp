@@ -129,7 +129,7 @@ void begin(Run& run, const std::vector<std::string>& names) {
   run.limits.longest_span = run.scene.run.frame_interval / 100;
   if (run.conversation.fluid) {
     FluidSide& fluid = *run.conversation.fluid;
-    run.overlap.emplace(fluid, run.scene.effect("debris_displacement"));
+    run.overlap.emplace(fluid, run.scene.effect("debris_displacement"), run.scene.fluid->atmospheric_pressure);
     const geometry::CutCells& cells = cut_grid(run);
     spdlog::info("first cut: {} cells hold solid, {} loose edges, {} corrected faces", cells.cell.size(),
                  cells.loose_edges, cells.corrected_faces);

@@ -59,6 +59,7 @@ std::vector<results::Column> ledger_columns() {
   impulse("fluid_taken");
   impulse("fluid_outstanding");
   for (const char* body : bodies) columns.push_back({std::string("fluid_weight_") + body + "_z", "N s"});
+  for (const char* body : bodies) columns.push_back({std::string("fluid_atmosphere_") + body + "_z", "N s"});
   for (const char* body : bodies) columns.push_back({std::string("fluid_carried_") + body + "_z", "N s"});
   for (const char* body : bodies) columns.push_back({std::string("fluid_reported_") + body + "_z", "N s"});
   for (const char* body : bodies) columns.push_back({std::string("contact_work_") + body, "J"});
@@ -84,6 +85,7 @@ void LedgerFile::append(double time, long window, double acting_time, const Ledg
   add(ledger.fluid_taken);
   add(outstanding);
   row.insert(row.end(), ledger.fluid_weight.begin(), ledger.fluid_weight.end());
+  row.insert(row.end(), ledger.fluid_atmosphere.begin(), ledger.fluid_atmosphere.end());
   row.insert(row.end(), ledger.fluid_carried.begin(), ledger.fluid_carried.end());
   row.insert(row.end(), ledger.fluid_reported.begin(), ledger.fluid_reported.end());
   row.insert(row.end(), ledger.contact_work.begin(), ledger.contact_work.end());

@@ -5,8 +5,10 @@
 
 namespace polynya::coupler {
 
-OverlapExchange::OverlapExchange(const FluidSide& fluid, bool debris_displaces_fluid)
-    : cutter_(fluid.grid), debris_displaces_fluid_(debris_displaces_fluid) {}
+OverlapExchange::OverlapExchange(const FluidSide& fluid, bool debris_displaces_fluid, double atmospheric_pressure)
+    : cutter_(fluid.grid),
+      debris_displaces_fluid_(debris_displaces_fluid),
+      atmospheric_pressure_(atmospheric_pressure) {}
 
 std::vector<geometry::BodySurface> OverlapExchange::Cut::views() const {
   std::vector<geometry::BodySurface> bodies(body_count);
@@ -50,12 +52,16 @@ void OverlapExchange::give(SolidSide& side, const Cut& cut, std::int32_t index, 
   geometry::add_pressure_forces(cut.cells, cutter_.grid(), index, surface->view(), pressure.value, pressure.gradient_z,
                                 impulses);
   for (double& value : impulses) value *= factor;
-  double pressure_alone = 0;
-  for (std::size_t e = 0; e < cut.cells.cell.size(); ++e)
-    pressure_alone += pressure.value[e] * cut.cells.wall_area[(e * body_count + static_cast<std::size_t>(index)) * 3 + 2];
+  double pressure_alone = 0, open_area = 0;
+  for (std::size_t e = 0; e < cut.cells.cell.size(); ++e) {
+    const double area = cut.cells.wall_area[(e * body_count + static_cast<std::size_t>(index)) * 3 + 2];
+    pressure_alone += pressure.value[e] * area;
+    open_area += area;
+  }
   double vertical = 0;
   for (std::size_t i = 2; i < impulses.size(); i += 3) vertical += impulses[i];
   ledger.fluid_weight[index] += vertical - factor * pressure_alone;
+  ledger.fluid_atmosphere[index] += factor * atmospheric_pressure_ * open_area;
   for (std::size_t i = 0; i < impulses.size(); ++i) ledger.fluid_given[static_cast<int>(side.body)][i % 3] += impulses[i];
   add_fluid_impulses(side, surface->ids, surface->positions, impulses);
 }

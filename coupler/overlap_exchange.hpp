@@ -11,7 +11,7 @@ namespace polynya::coupler {
 /// the vertices: what the fluid gave and what the solids get agree to rounding.
 class OverlapExchange {
  public:
-  OverlapExchange(const FluidSide& fluid, bool debris_displaces_fluid);
+  OverlapExchange(const FluidSide& fluid, bool debris_displaces_fluid, double atmospheric_pressure);
 
   /// Cuts the grid by the solids where they are now and remembers the cut before.
   const geometry::CutCells& cut(const Conversation& conversation);
@@ -53,6 +53,7 @@ class OverlapExchange {
 
   geometry::Cutter cutter_;
   bool debris_displaces_fluid_;
+  double atmospheric_pressure_;  ///< Pa
   Cut before_, now_;
 };
 

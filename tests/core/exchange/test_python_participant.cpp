@@ -33,7 +33,7 @@ TEST(PythonExample, FollowsCentralDifferencesUnderConstantLoad) {
   const SocketFolder folder;
   Process python([&] { return play_python(folder.endpoint(), "r"); });
   Hub hub(folder.endpoint(), "r", {"vehicle"});
-  hub.await_participants(20);
+  hub.await_participants(60);
 
   const Message ready = hub.receive("vehicle", "ready");
   EXPECT_EQ(ready.header["role"], "solid");
@@ -69,7 +69,7 @@ TEST(PythonExample, TakesEmptyLoadsAndEndsOnStop) {
   const SocketFolder folder;
   Process python([&] { return play_python(folder.endpoint(), "r"); });
   Hub hub(folder.endpoint(), "r", {"vehicle"});
-  hub.await_participants(20);
+  hub.await_participants(60);
   hub.receive("vehicle", "ready");
   Message begin("begin");
   begin.header["time"] = 0.0;
