@@ -57,15 +57,18 @@ void finish_filling(Fluid& fluid) {
   update_account(fluid);
 }
 
+double wall_pressure(const Fluid& fluid, std::ptrdiff_t cell) {
+  if (fluid.density[cell] <= 0 && fluid.before.volume[cell] <= 0) return fluid.setup.atmospheric_pressure;
+  return fluid.steps > 0 || fluid.predicted_pressure[cell] != 0 ? fluid.predicted_pressure[cell] : fluid.pressure[cell];
+}
+
 void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<double>& value, std::vector<double>& gradient) {
   const std::size_t count = overlap.cell.size();
   value.assign(count, 0.0);
   gradient.assign(count, 0.0);
-  const std::vector<double>& pressure = fluid.steps > 0 ? fluid.predicted_pressure : fluid.pressure;
   for (std::size_t m = 0; m < count; ++m) {
     const std::ptrdiff_t c = fluid.grid.from_message(overlap.cell[m]);
-    if (fluid.density[c] <= 0) continue;
-    value[m] = pressure[c] - fluid.setup.atmospheric_pressure;
+    value[m] = wall_pressure(fluid, c) - fluid.setup.atmospheric_pressure;
     gradient[m] = fluid.density[c] * fluid.setup.gravity;
   }
 }

@@ -127,6 +127,10 @@ void step(Fluid& fluid, double dt, const Overlap& overlap);
 /// Largest step the scheme bears: half a cell per sound speed plus flow speed, s.
 double stable_step(const Fluid& fluid);
 
+/// Absolute pressure on the walls in a cell: the one the step used; the atmosphere's where no fluid is left between
+/// solids, which is no load.
+double wall_pressure(const Fluid& fluid, std::ptrdiff_t cell);
+
 /// Gauge pressure and vertical pressure gradient (density times gravity) for the entries of an overlap, in its order:
 /// p(z) = value - gradient (z - z of the whole cell's centre). After a step: what the step did to the fluid.
 void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<double>& value, std::vector<double>& gradient);

@@ -11,9 +11,8 @@ void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls, con
     const double p = fluid.predicted_pressure[wall.cell];
     for (int body = 0; body < 2; ++body) {
       for (int axis = 0; axis < 3; ++axis) {
-        const double impulse = dt * p * wall.area[body][axis];
-        account.body_impulse[body][axis] += impulse;
-        account.wall_work[body] += impulse * wall.velocity[body][axis];
+        account.body_impulse[body][axis] += dt * wall_pressure(fluid, wall.cell) * wall.area[body][axis];
+        account.wall_work[body] += dt * p * wall.area[body][axis] * wall.velocity[body][axis];
         account.swept_volume[body] += dt * wall.area[body][axis] * wall.velocity[body][axis];
       }
     }
