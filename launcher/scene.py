@@ -49,7 +49,7 @@ def resolve(file: Path, level: str | None, settings: list[str], explain: bool = 
 
 def refuse_what_does_not_fit(scene: dict) -> None:
     """Raises WrongInput if the estimate says that memory or disk do not suffice."""
-    estimate = scene["estimate"]
+    estimate = scene.get("estimate") or {"fits": True}
     if not estimate["fits"]:
         raise WrongInput(f"{scene['name']} does not fit this machine: {estimate['reason']}; coarser cells "
                          "(resolution.cell, --level) or a smaller domain would")

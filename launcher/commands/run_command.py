@@ -20,7 +20,7 @@ def run(arguments: argparse.Namespace) -> int:
     build.build(["resolve_scene"])
     scene = scenes.resolve(file, arguments.level, arguments.settings, explain=True)
     scenes.refuse_what_does_not_fit(scene)
-    del scene["estimate"]
+    scene.pop("estimate", None)
     names = scenes.participants(scene)
     folder = run_folder.choose(arguments.out, scene)
     run_folder.check(folder)
