@@ -289,7 +289,6 @@ void advance_window(Run& run) {
   for (SolidSide& side : run.conversation.solids) run.work[static_cast<int>(side.body)].remember(side, acting_time);
   send_loads(run.conversation, run.keeper.window, next, !run.end.empty(), frame);
   ++run.keeper.window;
-  run.keeper.step_before = run.keeper.step;
   run.keeper.step = next;
 }
 

@@ -18,7 +18,6 @@ struct StepLimits {
 struct TimeKeeper {
   double time = 0;           ///< s, end of the last window
   double step = 0;           ///< s, of the current window
-  double step_before = 0;    ///< s, of the window before
   double span_start = 0;     ///< s
   long window = 0, span = 0; ///< completed
   long windows_left = 0;     ///< in the current span

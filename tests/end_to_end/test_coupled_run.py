@@ -108,16 +108,18 @@ class BaseScene(unittest.TestCase):
 
 
 class WithoutIce(unittest.TestCase):
-    def test_start_is_free_of_transients(self):
-        """A vehicle set into motion impulsively would radiate rho c V = 59 MPa; the potential flow does not."""
+    def test_mean_pressure_on_the_head_stays_below_the_stagnation_pressure(self):
+        """A vehicle set into motion impulsively would radiate rho c V = 59 MPa; the potential flow does not.
+
+        The mean over the head is what this version holds. Single cells of the wall, mostly at the flat base, exceed the
+        bound for a step or two (docs/limits.md).
+        """
         with scratch() as folder:
             summary_of(polynya("run", "cases/vehicle_in_water", "--set", "run.end_time=0.1 ms", "--out", f"{folder}/run",
                                "--json", "--no-pictures"))
             columns = series(f"{folder}/run/series/coupler.csv")
-        # Over the head; single cells are noisier (docs/limits.md).
         self.assertLess(max(columns["head_pressure"]), 1.2 * 0.5 * 1000 * 40**2)
         self.assertGreater(max(columns["head_pressure"]), 0.05 * 0.5 * 1000 * 40**2)
-        # The 59 MPa would stop the vehicle by 3 m/s in the time sound needs along the domain.
         self.assertGreater(columns["vehicle_speed"][-1], 39)
 
 
