@@ -20,7 +20,7 @@
 namespace polynya::coupler {
 namespace {
 
-constexpr long cuts_between_samples = 100;   // DESIGN 5: every 100 cuts a seeded sample is recut by CGAL
+constexpr long cuts_between_samples = 100;   // every 100 cuts a seeded sample is recut by CGAL
 constexpr std::size_t cells_in_sample = 8;
 constexpr double largest_sample_difference = 1e-10;
 
@@ -253,7 +253,7 @@ void write_ledger(Run& run, double acting_time) {
   run.ledger_file.append(run.keeper.time, run.keeper.window, acting_time, run.ledger, held);
 }
 
-/// One window of DESIGN 3: positions, contact, at the end of a span the fluid, loads.
+/// One window of docs/coupling.md: positions, contact, at the end of a span the fluid, loads.
 void advance_window(Run& run) {
   {
     const auto lap = run.watch.lap("surfaces");

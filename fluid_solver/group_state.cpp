@@ -1,4 +1,4 @@
-// Groups of cells share one thermodynamic state (OVERLAP 4, 5): what they hold together, the pressure inside them, what
+// Groups of cells share one thermodynamic state: what they hold together, the pressure inside them, what
 // they give through faces, and how their content is spread again after the remap.
 #include <algorithm>
 #include <cmath>

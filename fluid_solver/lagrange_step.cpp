@@ -9,8 +9,8 @@
 namespace polynya::fluid {
 namespace {
 
-constexpr double prediction = 0.6;         ///< share of a step the pressure is predicted ahead (OVERLAP 5, theta)
-constexpr double linear_viscosity = 0.06, quadratic_viscosity = 1.5;  ///< shock viscosity (REFERENCE 6)
+constexpr double prediction = 0.6;         ///< share of a step the pressure is predicted ahead (theta)
+constexpr double linear_viscosity = 0.06, quadratic_viscosity = 1.5;  ///< shock viscosity
 
 template <bool mean>
 void rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity, std::array<std::vector<double>, 3>& rate) {

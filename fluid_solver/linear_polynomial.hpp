@@ -3,7 +3,7 @@
 
 namespace polynya::fluid {
 
-/// Linear polynomial equation of state (REFERENCE 6): P = C0 + C1 mu + C2 mu^2 + C3 mu^3 + (C4 + C5 mu + C6 mu^2) E,
+/// Linear polynomial equation of state: P = C0 + C1 mu + C2 mu^2 + C3 mu^3 + (C4 + C5 mu + C6 mu^2) E,
 /// E the internal energy per reference volume. C4 = C5 = gamma - 1, others 0: an ideal gas.
 struct LinearPolynomial {
   double density = 1.2;  ///< reference density, kg/m^3

@@ -9,7 +9,7 @@ struct Response {
   double pressure, by_density, by_energy;
 };
 
-/// Mie-Grueneisen equation of state of water (REFERENCE 6): a shock Hugoniot in compression, linear in expansion.
+/// Mie-Grueneisen equation of state of water: a shock Hugoniot in compression, linear in expansion.
 /// Pressure is linear in the specific internal energy, which is 0 at the reference density and zero pressure.
 struct MieGrueneisen {
   double density = 1000, sound_speed = 1480;  ///< reference density, kg/m^3; m/s

@@ -1,7 +1,7 @@
 // Nodes at and inside solids. A node that solid has nearly covered has next to no mass and would fly off: it follows its
-// neighbours (OVERLAP 13). A node inside takes the velocity of the wall. Where all cells on one side of a node are solid,
+// neighbours. A node inside takes the velocity of the wall. Where all cells on one side of a node are solid,
 // the wall lies in or before the plane of those faces: closed faces exert no force on the node, so it takes the wall's
-// normal velocity; left alone it would meet the wall with a jolt as soon as the wall moves off the plane (OVERLAP 8). The
+// normal velocity; left alone it would meet the wall with a jolt as soon as the wall moves off the plane. The
 // difference of momentum goes to the body.
 #include <algorithm>
 #include <cmath>

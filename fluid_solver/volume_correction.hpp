@@ -15,7 +15,7 @@ struct StepWall {
 
 /// Mean areas times wall velocity miss the true change of a cell's free volume, by much where a wall crosses a face of
 /// the grid within the step; taken at face value the miss would be compression. These volumes, moved between
-/// neighbouring cells near the walls by the remap alone, make up for it (OVERLAP 10): what enters one cell leaves
+/// neighbouring cells near the walls by the remap alone, make up for it: what enters one cell leaves
 /// another, and what cannot be balanced among neighbours stays and is felt as pressure. Debris is treated the same way:
 /// the water makes room without being pushed, so an element that becomes a particle in one step sends out no shock.
 struct VolumeCorrection {

@@ -27,7 +27,7 @@ struct SecondaryPoints {
 
 struct PenaltyLaw {
   double friction = 0;           ///< Coulomb coefficient
-  double stiffness_factor = 0.1; ///< of (reduced mass) / dt^2, the bound of REFERENCE 7: stability of the window
+  double stiffness_factor = 0.1; ///< of (reduced mass) / dt^2, the bound that keeps a force held over the window stable
   double depth_limit = 0;        ///< m, how deep below the surface a point is still found
   std::array<bool, 2> mirror{};  ///< symmetry planes x = 0, y = 0 of the primary surface
 };

@@ -1,4 +1,4 @@
-// Shock tubes against the exact solution, and the exact solution against published star values (LITERATURE 5.1).
+// Shock tubes against the exact solution, and the exact solution against published star values.
 #include <gtest/gtest.h>
 
 #include <cmath>
