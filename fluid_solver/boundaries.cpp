@@ -1,6 +1,8 @@
 // The six sides of the grid. Walls (and planes of symmetry) have closed faces and no normal velocity. Non-reflecting sides
 // hold the undisturbed pressure of their layer plus the impedance rho c times the outward speed, and let fluid through:
-// what leaves has the state inside, what enters has the ambient state of the layer.
+// what leaves has the state inside, what enters has the ambient state of the layer. Around a body, waves are spherical:
+// (d/dt + c d/dr + c/r) p = 0 with rho du/dt = -dp/dr gives p = rho c (u - w), dw/dt = c/r (u - w). The part w of the
+// outward speed, which starts as that of the potential flow, meets no resistance (Geers 1978, J. Acoust. Soc. Am. 64:1500).
 #include <algorithm>
 #include <cmath>
 
@@ -56,6 +58,57 @@ void apply_ambient(Fluid& fluid) {
   }
 }
 
+namespace {
+
+double outward_speed(const Fluid& fluid, Side side, std::ptrdiff_t cell) {
+  const std::ptrdiff_t face = side.upper ? cell + fluid.grid.stride(side.axis) : cell;
+  const double area = face_area(fluid.grid, side.axis, cell) * mean_open(fluid, side.axis, face);
+  if (!(area > 0)) return 0;
+  return (side.upper ? 1.0 : -1.0) * (fluid.face_rate[side.axis][face] / area - fluid.setup.ambient_velocity[side.axis]);
+}
+
+/// Cosine of the way out with the ray from the body's centre, over the distance from it, 1/m.
+double spreading(const Fluid& fluid, Side side, std::ptrdiff_t cell) {
+  const Grid& grid = fluid.grid;
+  int index[3];
+  grid.position(cell, index[0], index[1], index[2]);
+  std::array<double, 3> ray{grid.centre_x(index[0]), grid.centre_y(index[1]), grid.centre_z(index[2])};
+  const std::vector<double>& line = side.axis == 0 ? grid.x : side.axis == 1 ? grid.y : grid.z;
+  ray[side.axis] = side.upper ? line.back() : line.front();
+  double square = 0;
+  for (int d = 0; d < 3; ++d) {
+    ray[d] -= fluid.far_field.centre[d];
+    square += ray[d] * ray[d];
+  }
+  return std::max(0.0, (side.upper ? 1.0 : -1.0) * ray[side.axis]) / square;
+}
+
+}  // namespace
+
+void start_far_field(Fluid& fluid, const std::array<double, 3>& centre) {
+  fluid.far_field.centre = centre;
+  fluid.far_field.spherical = true;
+  face_rates(fluid, fluid.velocity, fluid.face_rate);
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    std::vector<double>& slow = fluid.far_field.slow_speed[s];
+    slow.clear();
+    if (fluid.setup.boundary[s] == Boundary::wall) continue;
+    along(fluid.grid, sides[s], 0, [&](std::ptrdiff_t cell) { slow.push_back(outward_speed(fluid, sides[s], cell)); });
+  }
+}
+
+void advance_far_field(Fluid& fluid, double dt) {
+  if (!fluid.far_field.spherical) return;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    if (fluid.setup.boundary[s] == Boundary::wall) continue;
+    std::size_t at = 0;
+    along(fluid.grid, sides[s], 0, [&](std::ptrdiff_t cell) {
+      double& slow = fluid.far_field.slow_speed[s][at++];
+      slow += dt * fluid.sound_speed[cell] * spreading(fluid, sides[s], cell) * (outward_speed(fluid, sides[s], cell) - slow);
+    });
+  }
+}
+
 void set_boundary_pressure(Fluid& fluid) {
   const Grid& grid = fluid.grid;
   for (std::size_t s = 0; s < sides.size(); ++s) {
@@ -63,8 +116,10 @@ void set_boundary_pressure(Fluid& fluid) {
     const Side side = sides[s];
     const std::ptrdiff_t stride = grid.stride(side.axis);
     const double outward = side.upper ? 1.0 : -1.0;
+    std::size_t at = 0;
     along(grid, side, 0, [&](std::ptrdiff_t cell) {
-      const std::ptrdiff_t face = side.upper ? cell + stride : cell, ghost = side.upper ? cell + stride : cell - stride;
+      const std::ptrdiff_t ghost = side.upper ? cell + stride : cell - stride;
+      const double slow = fluid.far_field.spherical ? fluid.far_field.slow_speed[s][at++] : 0.0;
       const std::size_t k = static_cast<std::size_t>(cell / grid.sz);
       double pressure = fluid.ambient[k].pressure;
       if (side.axis == 2) {
@@ -72,12 +127,8 @@ void set_boundary_pressure(Fluid& fluid) {
         const double density = fluid.ambient[k].density[0] + fluid.ambient[k].density[1];
         pressure -= outward * fluid.setup.gravity * (0.5 * grid.dz[k] * density);
       }
-      const double area = face_area(grid, side.axis, cell) * mean_open(fluid, side.axis, face);
-      if (area > 0) {
-        const double speed = fluid.face_rate[side.axis][face] / area - fluid.setup.ambient_velocity[side.axis];
-        pressure += fluid.density[cell] * fluid.sound_speed[cell] * outward * speed;
-      }
-      fluid.predicted_pressure[ghost] = pressure;
+      const double impedance = fluid.density[cell] * fluid.sound_speed[cell];
+      fluid.predicted_pressure[ghost] = pressure + impedance * (outward_speed(fluid, side, cell) - slow);
     });
   }
 }

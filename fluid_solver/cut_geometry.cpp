@@ -103,6 +103,19 @@ void CutGeometry::set(const Grid& grid, const std::array<Boundary, 6>& boundary,
   update_nodes(grid);
 }
 
+void CutGeometry::open_like(const CutGeometry& later) {
+  std::vector<double> own_volume = std::move(volume);
+  const std::vector<std::ptrdiff_t> own_cells = std::move(cells_), own_nodes = std::move(nodes_);
+  const auto own_faces = std::move(faces_);
+  *this = later;
+  volume = std::move(own_volume);
+  // What was touched before has to be restored as well.
+  cells_.insert(cells_.end(), own_cells.begin(), own_cells.end());
+  nodes_.insert(nodes_.end(), own_nodes.begin(), own_nodes.end());
+  for (int axis = 0; axis < 3; ++axis)
+    faces_[axis].insert(faces_[axis].end(), own_faces[axis].begin(), own_faces[axis].end());
+}
+
 void CutGeometry::update_nodes(const Grid& grid) {
   for (const std::ptrdiff_t c : cells_) {
     for (int corner = 0; corner < 8; ++corner) {

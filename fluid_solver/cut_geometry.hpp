@@ -29,6 +29,9 @@ struct CutGeometry {
   CutGeometry(const Grid& grid, const std::array<Boundary, 6>& boundary);
   /// Throws std::invalid_argument naming the first entry that is out of range or not a number.
   void set(const Grid& grid, const std::array<Boundary, 6>& boundary, const Overlap& overlap);
+  /// Takes the open faces and the walls of `later` and keeps the volumes: the limit from the right at an instant when
+  /// walls that lie in planes of faces begin to leave them.
+  void open_like(const CutGeometry& later);
 
  private:
   void restore(const Grid& grid, const std::array<Boundary, 6>& boundary);

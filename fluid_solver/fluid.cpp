@@ -50,7 +50,7 @@ void fill_cell(Fluid& fluid, std::ptrdiff_t cell, const CellState& state) {
 }
 
 void finish_filling(Fluid& fluid) {
-  fluid.groups = find_groups(fluid.grid, fluid.before, fluid.after, fluid.label);
+  fluid.groups = find_groups(fluid.grid, fluid.before, fluid.after, {}, fluid.label);
   update_face_coefficients(fluid);
   update_node_mass(fluid);
   update_cell_states(fluid);

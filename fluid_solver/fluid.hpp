@@ -40,6 +40,20 @@ struct Ambient {
   std::array<double, 2> fraction{}, density{}, energy_density{};  ///< per material; kg and J per m^3 of the mixture
 };
 
+/// The flow beyond non-reflecting boundaries: the water around a body that moves spreads like a spherical wave, so the
+/// boundary carries slow flow without resistance and answers fast changes with the impedance rho c.
+struct FarField {
+  std::array<double, 3> centre{};                   ///< of the body, m
+  bool spherical = false;                           ///< false: plane waves, nothing flows beyond
+  std::array<std::vector<double>, 6> slow_speed;    ///< outward, by side and face in the order of its cells, m/s
+};
+
+/// A started flow is not quite the one the scheme would settle to, and the difference rings between walls and cells. Until
+/// sound has crossed a few cells the linear shock viscosity is therefore close to critical: 0.06 + excess exp(-t / decay).
+struct StartDamping {
+  double excess = 0, decay = 1;  ///< -, s
+};
+
 /// What a group of cells holds at the beginning of a step.
 struct GroupState {
   Mixture content;
@@ -53,9 +67,12 @@ struct Fluid {
   CutGeometry before, after;  ///< at the beginning and the end of the current step; between steps `after` is now
   Groups groups;              ///< of the last step
   std::vector<GroupState> group_states;  ///< at the beginning of the last step
+  std::vector<double> own_compression;   ///< by member of `groups`: density over the group's, less one
   std::array<Material, 2> material;
   std::array<std::vector<double>, 3> velocity;  ///< of nodes, m/s
   std::vector<Ambient> ambient;                 ///< by padded k
+  FarField far_field;
+  StartDamping start_damping;
   Account account;
   compute::Stopwatch watch;
   double time = 0;

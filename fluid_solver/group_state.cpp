@@ -9,9 +9,8 @@
 namespace polynya::fluid {
 namespace {
 
-constexpr double prediction = 0.6;          ///< theta
-constexpr double within = 0.5;                       ///< zeta: brings wall motion to the nodes inside a group
-constexpr double linear_viscosity = 0.06, quadratic_viscosity = 1.5;
+constexpr double prediction = 0.6;  ///< theta
+constexpr double quadratic_viscosity = 1.5;
 
 struct Range {
   const Groups::Member *first, *last;
@@ -23,13 +22,50 @@ Range members_of(const Groups& groups, std::size_t g) {
   return {groups.members.data() + groups.first[g], groups.members.data() + groups.first[g + 1]};
 }
 
+/// Index of the member that is the cell `parent`, which stands before `child`.
+std::size_t position_of(const Range& range, std::ptrdiff_t parent, std::size_t child) {
+  while (range.first[child].cell != parent) --child;
+  return child;
+}
+
 double height_of(const Grid& grid, std::ptrdiff_t cell) { return grid.centre_z(static_cast<int>(cell / grid.sz)); }
+
+/// The part of its own change of volume that a member keeps: all of it from half full on, none where it is empty.
+double kept_share(const Grid& grid, std::ptrdiff_t cell, double volume) {
+  return std::min(1.0, volume / (0.5 * full_volume(grid, cell)));
+}
+
+/// Rate of strain of every member. A member is strained by its own rate of volume, but one under half full hands the rest
+/// of it on to its parent, the fuller one: so it is no stiffer than a half-full cell, and a cell that joins or leaves a
+/// group feels no jolt. What the root cannot keep strains the whole group.
+void member_strains(const Fluid& fluid, std::size_t g, double group_volume, std::vector<double>& strain) {
+  const Range range = members_of(fluid.groups, g);
+  const std::size_t count = static_cast<std::size_t>(range.last - range.first);
+  strain.assign(count, 0.0);
+  double common = 0;
+  for (std::size_t m = count; m-- > 0;) {
+    const auto& [c, parent] = range.first[m];
+    const double volume = fluid.before.volume[c], rate = strain[m] + fluid.rate[c];
+    const double kept = kept_share(fluid.grid, c, volume) * rate;
+    strain[m] = volume > 0 ? kept / volume : 0.0;
+    if (m == 0) common = rate - kept;
+    else strain[position_of(range, parent, m)] += rate - kept;
+  }
+  // A member without volume has nothing to be strained, the group holds half a cell at least.
+  for (double& one : strain) one += group_volume > 0 ? common / group_volume : 0.0;
+}
+
+/// Only water that fills its room bears differences of pressure inside a group.
+bool bears_differences(const GroupState& state) {
+  return state.volume > 0 && state.content.mass[air] == 0 && state.point.bulk_modulus > 0;
+}
 
 }  // namespace
 
 void evaluate_groups(Fluid& fluid) {
   const Grid& grid = fluid.grid;
   fluid.group_states.assign(fluid.groups.count(), {});
+  fluid.own_compression.assign(fluid.groups.members.size(), 0.0);
   for (std::size_t g = 0; g < fluid.groups.count(); ++g) {
     GroupState& state = fluid.group_states[g];
     double moment = 0, centre = 0;
@@ -50,8 +86,12 @@ void evaluate_groups(Fluid& fluid) {
     if (filled) state.point = settle(fluid.setup.law, fluid.setup.pressure_floor, state.volume, state.content);
     const double rho = filled ? mass / state.volume : 0.0;
     const int held = (state.content.mass[0] > 0 ? 1 : 0) | (state.content.mass[1] > 0 ? 2 : 0);
+    const bool differs = bears_differences(state);
+    double* compression = fluid.own_compression.data() + fluid.groups.first[g];
     for (const auto& [c, parent] : members_of(fluid.groups, g)) {
-      fluid.pressure[c] = filled ? state.point.pressure + rho * fluid.setup.gravity * (state.height - height_of(grid, c))
+      if (differs && fluid.before.volume[c] > 0) *compression = fluid.total_mass[c] / (rho * fluid.before.volume[c]) - 1.0;
+      const double own = state.point.bulk_modulus * *compression++;
+      fluid.pressure[c] = filled ? state.point.pressure + rho * fluid.setup.gravity * (state.height - height_of(grid, c)) + own
                                  : state.volume > 0 ? fluid.setup.pressure_floor[water] : 0.0;
       fluid.density[c] = rho;
       fluid.bulk_modulus[c] = state.point.bulk_modulus;
@@ -65,24 +105,22 @@ void evaluate_groups(Fluid& fluid) {
 
 void predict_group_pressure(Fluid& fluid, double dt) {
   const Grid& grid = fluid.grid;
+  const double linear = linear_viscosity(fluid);
+  std::vector<double> strains;
   for (std::size_t g = 0; g < fluid.groups.count(); ++g) {
     const GroupState& state = fluid.group_states[g];
-    double rate = 0, bounded_volume = 0;
-    for (const auto& [c, parent] : members_of(fluid.groups, g)) {
-      rate += fluid.rate[c];
-      bounded_volume += std::max(fluid.before.volume[c], 0.5 * full_volume(grid, c));
-    }
+    member_strains(fluid, g, state.volume, strains);
+    const double* strain_of = strains.data();
     const double floor = std::max(state.content.mass[0] > 0 ? fluid.setup.pressure_floor[0] : -1e300,
                                   state.content.mass[1] > 0 ? fluid.setup.pressure_floor[1] : -1e300);
     for (const auto& [c, parent] : members_of(fluid.groups, g)) {
-      const double full = full_volume(grid, c), strain = rate / std::max(state.volume, 0.5 * full);
-      const double inner = fluid.rate[c] / std::max(fluid.before.volume[c], 0.5 * full) - rate / bounded_volume;
+      const double strain = *strain_of++;
       int i, j, k;
       grid.position(c, i, j, k);
       const double length = std::min({grid.dx[i], grid.dy[j], grid.dz[k]}), closing = std::max(0.0, -strain);
       const double q = fluid.density[c] * length * closing *
-                       (quadratic_viscosity * length * closing + linear_viscosity * fluid.sound_speed[c]);
-      const double ahead = fluid.pressure[c] - fluid.bulk_modulus[c] * dt * (prediction * strain + within * inner);
+                       (quadratic_viscosity * length * closing + linear * fluid.sound_speed[c]);
+      const double ahead = fluid.pressure[c] - fluid.bulk_modulus[c] * dt * prediction * strain;
       fluid.predicted_pressure[c] = std::max(ahead, floor) + q;
       fluid.viscosity[c] = 0;
     }
@@ -90,6 +128,7 @@ void predict_group_pressure(Fluid& fluid, double dt) {
 }
 
 void set_group_donors(Fluid& fluid, double dt) {
+  std::vector<double> strains;
   for (std::size_t g = 0; g < fluid.groups.count(); ++g) {
     const GroupState& state = fluid.group_states[g];
     double change = 0, work = 0;
@@ -99,6 +138,11 @@ void set_group_donors(Fluid& fluid, double dt) {
     }
     const std::array<double, 2> share = volume_shares(fluid.setup.law, fluid.setup.pressure_floor, state.content, change);
     const double volume = state.volume + change, inverse = volume > 0 ? 1.0 / volume : 0.0;
+    if (bears_differences(state)) {
+      member_strains(fluid, g, state.volume, strains);
+      double* compression = fluid.own_compression.data() + fluid.groups.first[g];
+      for (const double strain : strains) *compression++ -= dt * strain - change / state.volume;
+    }
     bool root = true;
     for (const auto& [c, parent] : members_of(fluid.groups, g)) {
       double mixture = 0;
@@ -119,6 +163,27 @@ void set_group_donors(Fluid& fluid, double dt) {
   }
 }
 
+namespace {
+
+/// Shares of the group's mass that its members get: by volume, more where a member is compressed by itself. The emptier a
+/// cell under half full, the more of that is evened out: all of it in an empty cell, nothing in a half-full one, which
+/// would be a cell of its own. So cells join and leave groups without a jolt.
+std::vector<double> mass_shares(const Fluid& fluid, std::size_t g) {
+  const Range range = members_of(fluid.groups, g);
+  const double* compression = fluid.own_compression.data() + fluid.groups.first[g];
+  std::vector<double> share;
+  double sum = 0;
+  for (const auto& [c, parent] : range) {
+    const double volume = fluid.after.volume[c], kept = kept_share(fluid.grid, c, volume);
+    share.push_back(volume * (1.0 + kept * *compression++));
+    sum += share.back();
+  }
+  for (double& one : share) one /= sum;
+  return share;
+}
+
+}  // namespace
+
 void mix_groups(Fluid& fluid) {
   for (std::size_t g = 0; g < fluid.groups.count(); ++g) {
     std::array<double, 2> mass{}, energy{}, held{};
@@ -137,26 +202,25 @@ void mix_groups(Fluid& fluid) {
     }
     // From the leaves to the root: what a cell has too much goes through the face to its parent.
     const Range range = members_of(fluid.groups, g);
-    std::vector<double> surplus(static_cast<std::size_t>(range.last - range.first));
+    const std::vector<double> share = mass_shares(fluid, g);
+    std::vector<double> surplus(share.size());
     for (std::size_t m = 0; m < surplus.size(); ++m) {
       const std::ptrdiff_t c = range.first[m].cell;
-      surplus[m] = fluid.material[0].mass[c] + fluid.material[1].mass[c] - (mass[0] + mass[1]) * (fluid.after.volume[c] / volume);
+      surplus[m] = fluid.material[0].mass[c] + fluid.material[1].mass[c] - (mass[0] + mass[1]) * share[m];
     }
     for (std::size_t m = surplus.size() - 1; m > 0; --m) {
       const auto& [c, parent] = range.first[m];
       const std::ptrdiff_t step = c - parent, stride = std::abs(step);
       const int axis = stride == 1 ? 0 : stride == fluid.grid.sy ? 1 : 2;
       fluid.face_mass[axis][std::max(c, parent)] += step > 0 ? -surplus[m] : surplus[m];
-      std::size_t at = m;
-      while (range.first[at].cell != parent) --at;
-      surplus[at] += surplus[m];
+      surplus[position_of(range, parent, m)] += surplus[m];
     }
-    for (const auto& [c, parent] : range) {
-      const double share = fluid.after.volume[c] / volume;
+    for (std::size_t at = 0; at < share.size(); ++at) {
+      const std::ptrdiff_t c = range.first[at].cell;
       for (int m = 0; m < 2; ++m) {
-        fluid.material[m].mass[c] = mass[m] * share;
-        fluid.material[m].energy[c] = energy[m] * share;
-        fluid.material[m].volume[c] = held[m] * share;
+        fluid.material[m].mass[c] = mass[m] * share[at];
+        fluid.material[m].energy[c] = energy[m] * share[at];
+        fluid.material[m].volume[c] = held[m] * (fluid.after.volume[c] / volume);
       }
     }
   }

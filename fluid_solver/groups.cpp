@@ -9,11 +9,22 @@
 namespace polynya::fluid {
 namespace {
 
+/// A change of partner is felt as a small jolt, so a cell keeps the one it had until another is so much better.
+constexpr double faithfulness = 5.0;
+
 /// Builds the groups of one step as a forest: an edge is added only between different sets.
 class Builder {
  public:
-  Builder(const Grid& grid, const CutGeometry& before, const CutGeometry& after, std::vector<std::int32_t>& label)
-      : grid_(grid), before_(before), after_(after), label_(label) {}
+  Builder(const Grid& grid, const CutGeometry& before, const CutGeometry& after, const Groups& previous,
+          std::vector<std::int32_t>& label)
+      : grid_(grid), before_(before), after_(after), label_(label) {
+    for (const Groups::Member& member : previous.members) {
+      if (member.parent < 0) continue;
+      joined_before_.push_back({member.cell, member.parent});
+      joined_before_.push_back({member.parent, member.cell});
+    }
+    std::sort(joined_before_.begin(), joined_before_.end());
+  }
 
   Groups build() {
     for (const std::ptrdiff_t c : small_cells()) local(c);
@@ -83,13 +94,18 @@ class Builder {
       if (!grid_.inside(other) || most(other) <= 0) continue;
       if (label_[other] >= 0 && find(label_[other]) == own) continue;
       const double open = through_walls ? 1.0 : openness(c, side);
-      const double score = (before_.volume[other] + after_.volume[other]) * open * (is_small(other) ? 0.25 : 1.0);
+      const double score = (before_.volume[other] + after_.volume[other]) * open * (is_small(other) ? 0.25 : 1.0) *
+                           (were_joined(c, other) ? faithfulness : 1.0);
       if (score > best) {
         best = score;
         chosen = other;
       }
     }
     return chosen;
+  }
+
+  bool were_joined(std::ptrdiff_t a, std::ptrdiff_t b) const {
+    return std::binary_search(joined_before_.begin(), joined_before_.end(), std::pair{a, b});
   }
 
   void join_best_neighbour(std::size_t l) {
@@ -183,13 +199,15 @@ class Builder {
   std::vector<std::int32_t> set_;
   std::vector<double> held_;  ///< least volume of the set, valid at its representative
   std::vector<std::vector<std::ptrdiff_t>> edges_;
+  std::vector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> joined_before_;  ///< both ways, sorted
   long sealed_ = 0;
 };
 
 }  // namespace
 
-Groups find_groups(const Grid& grid, const CutGeometry& before, const CutGeometry& after, std::vector<std::int32_t>& label) {
-  return Builder(grid, before, after, label).build();
+Groups find_groups(const Grid& grid, const CutGeometry& before, const CutGeometry& after, const Groups& previous,
+                   std::vector<std::int32_t>& label) {
+  return Builder(grid, before, after, previous, label).build();
 }
 
 }  // namespace polynya::fluid

@@ -21,7 +21,9 @@ struct Groups {
   std::size_t count() const { return first.empty() ? 0 : first.size() - 1; }
 };
 
+/// `previous` are the groups of the step before: cells keep their partners while these serve.
 /// `label` is scratch of the grid's size, -1 everywhere, and is left so.
-Groups find_groups(const Grid& grid, const CutGeometry& before, const CutGeometry& after, std::vector<std::int32_t>& label);
+Groups find_groups(const Grid& grid, const CutGeometry& before, const CutGeometry& after, const Groups& previous,
+                   std::vector<std::int32_t>& label);
 
 }  // namespace polynya::fluid

@@ -10,7 +10,7 @@ namespace polynya::fluid {
 namespace {
 
 constexpr double prediction = 0.6;         ///< share of a step the pressure is predicted ahead (theta)
-constexpr double linear_viscosity = 0.06, quadratic_viscosity = 1.5;  ///< shock viscosity
+constexpr double least_linear_viscosity = 0.06, quadratic_viscosity = 1.5;  ///< shock viscosity
 
 template <bool mean>
 void rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity, std::array<std::vector<double>, 3>& rate) {
@@ -39,6 +39,10 @@ void rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocit
 
 }  // namespace
 
+double linear_viscosity(const Fluid& fluid) {
+  return least_linear_viscosity + fluid.start_damping.excess * std::exp(-fluid.time / fluid.start_damping.decay);
+}
+
 void face_rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity, std::array<std::vector<double>, 3>& rate) {
   rates<false>(fluid, velocity, rate);
 }
@@ -48,7 +52,7 @@ void mean_face_rates(Fluid& fluid) { rates<true>(fluid, fluid.next_velocity, flu
 void predict_pressure(Fluid& fluid, double dt) {
   const Grid& grid = fluid.grid;
   const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
-  const double over_dt = 1.0 / dt;
+  const double over_dt = 1.0 / dt, linear = linear_viscosity(fluid);
   for_rows(grid, 0, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
     const double *qx = fluid.face_rate[0].data() + row, *qy = fluid.face_rate[1].data() + row, *qz = fluid.face_rate[2].data() + row;
@@ -69,7 +73,7 @@ void predict_pressure(Fluid& fluid, double dt) {
       rate[i] = r;
       const double strain = r / (v0[i] > 0 ? v0[i] : 1.0), length = std::min(dx[i], thickness);
       const double closing = strain < 0 ? -strain : 0.0;
-      const double q = rho[i] * length * closing * (quadratic_viscosity * length * closing + linear_viscosity * sound[i]);
+      const double q = rho[i] * length * closing * (quadratic_viscosity * length * closing + linear * sound[i]);
       const double floor = std::max(m0[i] > 0 ? floor0 : -1e300, m1[i] > 0 ? floor1 : -1e300);
       const double ahead = std::max(p[i] - bulk[i] * dt * prediction * strain, floor) + q;
       out[i] = v0[i] > 0 ? ahead : 0.0;

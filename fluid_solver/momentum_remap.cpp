@@ -8,7 +8,7 @@
 namespace polynya::fluid {
 namespace {
 
-constexpr double whole = 0.999;  ///< node fraction from which the slope is trusted
+constexpr double whole = 0.5;  ///< node fraction from which the slope is trusted
 
 /// Mass from node n to node n + s (axis stride s; t1, t2 the other strides).
 inline double dual_flux(const double* face_mass, std::ptrdiff_t n, std::ptrdiff_t s, std::ptrdiff_t t1, std::ptrdiff_t t2) {

@@ -5,6 +5,9 @@
 /// The phases of a step, in the order of step.cpp. Each lives in the file named after it.
 namespace polynya::fluid {
 
+/// Coefficient of the shock viscosity that is linear in the closing speed, at the present time.
+double linear_viscosity(const Fluid& fluid);
+
 /// cell_states.cpp: pressure, density, stiffness from masses, energies and the free volumes given; mixed cells are
 /// brought to pressure equilibrium.
 void evaluate_cells(Fluid& fluid, const std::vector<double>& volume);
@@ -31,6 +34,9 @@ void apply_to_faces(Fluid& fluid, const VolumeCorrection& correction, double dt)
 
 /// boundaries.cpp: ghost pressures at open boundaries, ghost values for the remap, walls and their accounts.
 void set_boundary_pressure(Fluid& fluid);
+/// Takes the present outward speeds as those of a slow flow around a body at `centre` (m).
+void start_far_field(Fluid& fluid, const std::array<double, 3>& centre);
+void advance_far_field(Fluid& fluid, double dt);
 void book_boundary(Fluid& fluid, double dt, const std::vector<StepWall>& walls);
 void book_boundary_flow(Fluid& fluid, double dt);
 void copy_face_mass_to_ghosts(Fluid& fluid);

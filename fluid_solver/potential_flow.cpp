@@ -15,7 +15,7 @@ using Field = std::vector<double>;
 constexpr int most_iterations = 3000;
 /// A member of a group that is at least so full keeps its own impulse: the step's prediction also holds the members of a
 /// group to the walls' motion one by one, and a start that ignores it would begin with a jolt.
-constexpr double own_fill = 0.01;
+constexpr double own_fill = 1e-4;
 constexpr double tolerance = 2e-5;  ///< of the norm of the walls' rates of volume
 
 class Projection {
@@ -200,23 +200,39 @@ class Projection {
   std::array<Field, 3>& kick_;
 };
 
-/// Mean velocity of the vehicle's wall, weighted with its area.
-std::array<double, 3> body_velocity(const Fluid& fluid) {
+/// Mean velocity and position of the vehicle's wall, weighted with its area. A plane of symmetry has the centre in it.
+struct BodyMotion {
+  std::array<double, 3> velocity{}, centre{};
+  bool found = false;
+};
+BodyMotion body_motion(const Fluid& fluid) {
+  BodyMotion body;
   double weight = 0;
-  std::array<double, 3> sum{};
   for (const WallPiece& wall : fluid.after.walls) {
     const auto& s = wall.area[0];
     const double area = std::sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+    int i, j, k;
+    fluid.grid.position(wall.cell, i, j, k);
+    const std::array<double, 3> place{fluid.grid.centre_x(i), fluid.grid.centre_y(j), fluid.grid.centre_z(k)};
     weight += area;
-    for (int d = 0; d < 3; ++d) sum[d] += area * wall.velocity[0][d];
+    for (int d = 0; d < 3; ++d) {
+      body.velocity[d] += area * wall.velocity[0][d];
+      body.centre[d] += area * place[d];
+    }
   }
-  for (double& component : sum) component = weight > 0 ? component / weight : 0.0;
-  return sum;
+  body.found = weight > 0;
+  for (int d = 0; d < 3 && body.found; ++d) {
+    body.velocity[d] /= weight;
+    body.centre[d] /= weight;
+  }
+  if (fluid.setup.boundary[0] == Boundary::wall) body.centre[0] = fluid.grid.x.front();
+  if (fluid.setup.boundary[2] == Boundary::wall) body.centre[1] = fluid.grid.y.front();
+  return body;
 }
 
 void add_bernoulli_pressure(Fluid& fluid) {
   const Grid& grid = fluid.grid;
-  const std::array<double, 3> body = body_velocity(fluid);
+  const std::array<double, 3> body = body_motion(fluid).velocity;
   Field raise(grid.size, 0.0);
   const auto raise_of = [&](std::ptrdiff_t c) {
     double weight = 0;
@@ -268,6 +284,7 @@ int project(Fluid& fluid) {
   fix_covered_nodes(fluid);
   const int iterations = Projection(fluid).run();
   fix_covered_nodes(fluid);
+  if (const BodyMotion body = body_motion(fluid); body.found) start_far_field(fluid, body.centre);
   fluid.account = {};
   return iterations;
 }
@@ -275,6 +292,8 @@ int project(Fluid& fluid) {
 }  // namespace
 
 int start_potential_flow(Fluid& fluid) {
+  // Sound crosses about four of the finest cells in this time.
+  fluid.start_damping = {1.0, 8.0 * stable_step(fluid)};
   const int iterations = project(fluid);
   add_bernoulli_pressure(fluid);
   finish_filling(fluid);

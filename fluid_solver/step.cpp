@@ -12,7 +12,8 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     const auto lap = fluid.watch.lap("geometry");
     std::swap(fluid.before, fluid.after);
     fluid.after.set(fluid.grid, fluid.setup.boundary, overlap);
-    fluid.groups = find_groups(fluid.grid, fluid.before, fluid.after, fluid.label);
+    if (fluid.steps == 0) fluid.before.open_like(fluid.after);
+    fluid.groups = find_groups(fluid.grid, fluid.before, fluid.after, fluid.groups, fluid.label);
     walls = join_walls(fluid.before, fluid.after);
     account.released_room += release_room(fluid.grid, fluid.before, fluid.after, walls, dt);
     correction = correct_volumes(fluid.grid, fluid.before, fluid.after, walls, dt, fluid.label);
@@ -35,6 +36,7 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     hourglass_force(fluid);
     accelerate_nodes(fluid, dt);
     mean_face_rates(fluid);
+    advance_far_field(fluid, dt);
     work_and_donors(fluid, dt);
     set_group_donors(fluid, dt);
     book_walls(fluid, dt, walls, correction);
