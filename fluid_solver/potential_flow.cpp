@@ -293,7 +293,7 @@ int project(Fluid& fluid) {
 
 int start_potential_flow(Fluid& fluid) {
   // Sound crosses about four of the finest cells in this time.
-  fluid.start_damping = {1.0, 8.0 * stable_step(fluid)};
+  fluid.start_damping = {1.5, 8.0 * stable_step(fluid)};
   const int iterations = project(fluid);
   add_bernoulli_pressure(fluid);
   finish_filling(fluid);
