@@ -26,7 +26,7 @@ double empty_open_fraction(const Grid& grid, const std::array<Boundary, 6>& boun
 }
 
 CutGeometry::CutGeometry(const Grid& grid, const std::array<Boundary, 6>& boundary)
-    : volume(grid.size, 0.0), node_fraction(grid.size, 0.0) {
+    : volume(grid.size, 0.0), node_fraction(grid.size, 0.0), listed_(grid.size, 0) {
   for (auto& fraction : open) fraction.assign(grid.size, 0.0);
   for_rows(grid, 1, [&](int j, int k) {
     for (int i = 1; i <= grid.nx + 1; ++i) {
@@ -119,19 +119,22 @@ void CutGeometry::open_like(const CutGeometry& later) {
 void CutGeometry::update_nodes(const Grid& grid) {
   for (const std::ptrdiff_t c : cells_) {
     for (int corner = 0; corner < 8; ++corner) {
-      nodes_.push_back(c + (corner & 1) + (corner & 2 ? grid.sy : 0) + (corner & 4 ? grid.sz : 0));
+      const std::ptrdiff_t n = c + (corner & 1) + (corner & 2 ? grid.sy : 0) + (corner & 4 ? grid.sz : 0);
+      if (listed_[n]) continue;
+      listed_[n] = 1;
+      nodes_.push_back(n);
     }
   }
-  std::sort(nodes_.begin(), nodes_.end());
-  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
   for (const std::ptrdiff_t n : nodes_) {
+    listed_[n] = 0;
     double sum = 0;
     int number = 0;
     for (int corner = 0; corner < 8; ++corner) {
       const std::ptrdiff_t c = n - (corner & 1) - (corner & 2 ? grid.sy : 0) - (corner & 4 ? grid.sz : 0);
-      if (!grid.inside(c)) continue;
-      sum += volume[c] / full_volume(grid, c);
-      ++number;
+      const double full = full_volume(grid, c);
+      const bool inside = grid.inside(c);
+      sum += inside ? volume[c] / full : 0.0;
+      number += inside;
     }
     node_fraction[n] = sum / number;
   }

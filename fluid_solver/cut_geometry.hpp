@@ -27,6 +27,8 @@ struct CutGeometry {
   long clamped_debris = 0;                   ///< cells whose debris did not fit
 
   CutGeometry(const Grid& grid, const std::array<Boundary, 6>& boundary);
+  /// Corners of the cells that hold solid, each once.
+  const std::vector<std::ptrdiff_t>& nodes() const { return nodes_; }
   /// Throws std::invalid_argument naming the first entry that is out of range or not a number.
   void set(const Grid& grid, const std::array<Boundary, 6>& boundary, const Overlap& overlap);
   /// Takes the open faces and the walls of `later` and keeps the volumes: the limit from the right at an instant when
@@ -37,6 +39,7 @@ struct CutGeometry {
   void restore(const Grid& grid, const std::array<Boundary, 6>& boundary);
   void update_nodes(const Grid& grid);
   std::vector<std::ptrdiff_t> cells_, nodes_;
+  std::vector<char> listed_;  ///< scratch by node, 0 between calls
   std::array<std::vector<std::ptrdiff_t>, 3> faces_;
 };
 

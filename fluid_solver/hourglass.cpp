@@ -7,46 +7,40 @@
 namespace polynya::fluid {
 namespace {
 
-/// Replaces eight corner values (bit 0: x, bit 1: y, bit 2: z) by the part orthogonal to constants and linear fields.
-inline void keep_hourglass(double (&u)[8]) {
-  for (int bit = 1; bit < 8; bit *= 2) {
-    for (int corner = 0; corner < 8; ++corner) {
-      if (corner & bit) continue;
-      const double a = u[corner], b = u[corner | bit];
-      u[corner] = a + b;
-      u[corner | bit] = a - b;
-    }
-  }
-  u[0] = u[1] = u[2] = u[4] = 0;
-  for (int bit = 1; bit < 8; bit *= 2) {
-    for (int corner = 0; corner < 8; ++corner) {
-      if (corner & bit) continue;
-      const double a = u[corner], b = u[corner | bit];
-      u[corner] = a + b;
-      u[corner | bit] = a - b;
-    }
+/// One component in a row of cells: the force on the corners along the four edges in x, lower ends in `lower` (4 rows of
+/// `width`, by y + 2 z), upper ends in `upper`. The part that no linear field can be: with sums s and differences d along
+/// x, d less its mean over the four edges, and of s what alternates in y and z.
+void edge_forces(const double* __restrict u, const double* __restrict coefficient, int count, std::ptrdiff_t sy, std::ptrdiff_t sz,
+                 std::ptrdiff_t width, double* __restrict lower, double* __restrict upper) {
+  for (int i = 1; i <= count; ++i) {
+    const double s0 = u[i] + u[i + 1], d0 = u[i] - u[i + 1];
+    const double s1 = u[i + sy] + u[i + sy + 1], d1 = u[i + sy] - u[i + sy + 1];
+    const double s2 = u[i + sz] + u[i + sz + 1], d2 = u[i + sz] - u[i + sz + 1];
+    const double s3 = u[i + sy + sz] + u[i + sy + sz + 1], d3 = u[i + sy + sz] - u[i + sy + sz + 1];
+    const double half = -0.5 * coefficient[i];
+    const double twist = half * 0.25 * ((s0 - s1) - (s2 - s3)), mean = 0.25 * ((d0 + d1) + (d2 + d3));
+    const double e0 = half * (d0 - mean), e1 = half * (d1 - mean), e2 = half * (d2 - mean), e3 = half * (d3 - mean);
+    lower[i] = twist + e0;
+    upper[i] = twist - e0;
+    lower[i + width] = e1 - twist;
+    upper[i + width] = -e1 - twist;
+    lower[i + 2 * width] = e2 - twist;
+    upper[i + 2 * width] = -e2 - twist;
+    lower[i + 3 * width] = twist + e3;
+    upper[i + 3 * width] = twist - e3;
   }
 }
 
 void row_force(Fluid& fluid, int j, int k, std::vector<double>& scratch) {
   const Grid& grid = fluid.grid;
-  const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz;
-  const std::size_t width = static_cast<std::size_t>(grid.nx) + 2;
-  const double* coefficient = fluid.viscosity.data() + row;
+  const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz, width = grid.nx + 2;
+  double *lower = scratch.data(), *upper = scratch.data() + 4 * width;  // ends of rows stay 0
   for (int axis = 0; axis < 3; ++axis) {
-    const double* u = fluid.velocity[axis].data() + row;
-    double* __restrict out = scratch.data();
-    for (int i = 1; i <= grid.nx; ++i) {
-      double corner[8] = {u[i],      u[i + 1],      u[i + sy],      u[i + 1 + sy],
-                          u[i + sz], u[i + 1 + sz], u[i + sy + sz], u[i + 1 + sy + sz]};
-      keep_hourglass(corner);
-      const double scale = -0.125 * coefficient[i];
-      for (int n = 0; n < 8; ++n) out[width * n + i] = scale * corner[n];
-    }
-    double* __restrict force = fluid.force[axis].data() + row;
-    for (int n = 0; n < 8; ++n) {
-      const std::ptrdiff_t to = (n & 1) + (n & 2 ? sy : 0) + (n & 4 ? sz : 0);
-      for (int i = 1; i <= grid.nx; ++i) force[i + to] += out[width * n + i];
+    edge_forces(fluid.velocity[axis].data() + row, fluid.viscosity.data() + row, grid.nx, sy, sz, width, lower, upper);
+    for (int edge = 0; edge < 4; ++edge) {
+      double* __restrict force = fluid.force[axis].data() + row + (edge & 1 ? sy : 0) + (edge & 2 ? sz : 0);
+      const double *low = lower + edge * width, *up = upper + edge * width;
+      for (int i = 1; i <= grid.nx + 1; ++i) force[i] += low[i] + up[i - 1];
     }
   }
 }
@@ -63,7 +57,7 @@ void hourglass_force(Fluid& fluid) {
   for (int colour = 0; colour < 2; ++colour) {
     const std::size_t layers = static_cast<std::size_t>((grid.nz + 1 - colour) / 2);
     compute::for_chunks(layers, 1, [&](std::size_t begin, std::size_t end) {
-      std::vector<double> scratch(8 * (static_cast<std::size_t>(grid.nx) + 2));
+      std::vector<double> scratch(8 * (static_cast<std::size_t>(grid.nx) + 2), 0.0);
       for (std::size_t layer = begin; layer < end; ++layer) {
         for (int j = 1; j <= grid.ny; ++j) row_force(fluid, j, 1 + colour + 2 * static_cast<int>(layer), scratch);
       }

@@ -63,16 +63,8 @@ struct PassingNode {
 
 std::vector<PassingNode> passing_nodes(const Fluid& fluid) {
   const Grid& grid = fluid.grid;
-  std::vector<std::ptrdiff_t> candidates;
-  for (const CutGeometry* geometry : {&fluid.before, &fluid.after}) {
-    for (const WallPiece& wall : geometry->walls) {
-      for (int corner = 0; corner < 8; ++corner) {
-        candidates.push_back(wall.cell + (corner & 1) + (corner & 2 ? grid.sy : 0) + (corner & 4 ? grid.sz : 0));
-      }
-    }
-  }
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  std::vector<std::ptrdiff_t> candidates = fluid.before.nodes();
+  candidates.insert(candidates.end(), fluid.after.nodes().begin(), fluid.after.nodes().end());
   std::vector<PassingNode> passing;
   for (const std::ptrdiff_t n : candidates) {
     double out = 0;
@@ -86,6 +78,10 @@ std::vector<PassingNode> passing_nodes(const Fluid& fluid) {
       passing.push_back({n, own, own});
     }
   }
+  // Most nodes are listed before and after; few pass.
+  std::sort(passing.begin(), passing.end(), [](const PassingNode& a, const PassingNode& b) { return a.node < b.node; });
+  const auto same = [](const PassingNode& a, const PassingNode& b) { return a.node == b.node; };
+  passing.erase(std::unique(passing.begin(), passing.end(), same), passing.end());
   return passing;
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 
 #include "fluid_solver/phases.hpp"
 
@@ -15,39 +14,40 @@ namespace {
 
 constexpr double covered = 0.02;
 
-struct NodeAtWall {
-  std::ptrdiff_t node;
-  const WallPiece* wall;
-};
+/// The pieces of wall in the cells around a node; null where there is none.
+using WallsAround = std::array<const WallPiece*, 8>;
 
-std::vector<NodeAtWall> nodes_at_walls(const Fluid& fluid) {
-  const Grid& grid = fluid.grid;
-  std::vector<NodeAtWall> nodes;
-  nodes.reserve(8 * fluid.after.walls.size());
-  for (const WallPiece& wall : fluid.after.walls) {
-    for (int corner = 0; corner < 8; ++corner) {
-      nodes.push_back({wall.cell + (corner & 1) + (corner & 2 ? grid.sy : 0) + (corner & 4 ? grid.sz : 0), &wall});
-    }
+WallsAround walls_around(const Fluid& fluid, std::ptrdiff_t node) {
+  WallsAround around{};
+  for (int corner = 0; corner < 8; ++corner) {
+    const std::int32_t wall =
+        fluid.label[node - (corner & 1) - (corner & 2 ? fluid.grid.sy : 0) - (corner & 4 ? fluid.grid.sz : 0)];
+    if (wall >= 0) around[7 - corner] = &fluid.after.walls[wall];
   }
-  std::sort(nodes.begin(), nodes.end(), [](const NodeAtWall& a, const NodeAtWall& b) {
-    return a.node != b.node ? a.node < b.node : a.wall < b.wall;
-  });
-  return nodes;
+  return around;
 }
 
 /// Velocity of the wall along an axis: of the piece around the node with the largest area that way.
-std::optional<double> wall_speed(std::span<const NodeAtWall> around, int axis) {
+std::optional<double> wall_speed(const WallsAround& around, int axis) {
   double largest = 0;
   std::optional<double> speed;
-  for (const NodeAtWall& at : around) {
-    for (int body = 0; body < 2; ++body) {
-      const double area = std::abs(at.wall->area[body][axis]);
+  for (const WallPiece* wall : around) {
+    for (int body = 0; wall && body < 2; ++body) {
+      const double area = std::abs(wall->area[body][axis]);
       if (area <= largest) continue;
       largest = area;
-      speed = at.wall->velocity[body][axis];
+      speed = wall->velocity[body][axis];
     }
   }
   return speed;
+}
+
+/// Velocity of the first piece there is: of a cell inside solid, where no area tells more.
+double inner_velocity(const WallsAround& around, int axis) {
+  for (const WallPiece* wall : around) {
+    if (wall) return wall->velocity[0][axis];
+  }
+  return 0;
 }
 
 /// True if all cells of the grid on one side of the node hold no fluid, and some on the other side do.
@@ -69,16 +69,16 @@ struct Receiver {
   const WallPiece* wall = nullptr;
   int body = 0;
 };
-Receiver nearest_wall(std::span<const NodeAtWall> around) {
+Receiver nearest_wall(const WallsAround& around) {
   Receiver receiver;
   double largest = 0;
-  for (const NodeAtWall& at : around) {
-    for (int body = 0; body < 2; ++body) {
-      const auto& a = at.wall->area[body];
+  for (const WallPiece* wall : around) {
+    for (int body = 0; wall && body < 2; ++body) {
+      const auto& a = wall->area[body];
       const double area = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
       if (area <= largest) continue;
       largest = area;
-      receiver = {at.wall, body};
+      receiver = {wall, body};
     }
   }
   return receiver;
@@ -103,7 +103,6 @@ std::optional<std::array<double, 3>> mean_of_neighbours(const Fluid& fluid, std:
 }  // namespace
 
 void fix_covered_nodes(Fluid& fluid) {
-  const std::vector<NodeAtWall> nodes = nodes_at_walls(fluid);
   struct Change {
     std::ptrdiff_t node;
     std::array<double, 3> velocity;
@@ -111,21 +110,21 @@ void fix_covered_nodes(Fluid& fluid) {
   };
   std::vector<Change> changes;
   fluid.wall_impulse.assign(fluid.after.walls.size(), {});
-  for (std::size_t from = 0; from < nodes.size();) {
-    std::size_t to = from;
-    while (to < nodes.size() && nodes[to].node == nodes[from].node) ++to;
-    const std::span<const NodeAtWall> around(nodes.data() + from, to - from);
-    const std::ptrdiff_t n = nodes[from].node;
-    from = to;
+  for (std::size_t w = 0; w < fluid.after.walls.size(); ++w) fluid.label[fluid.after.walls[w].cell] = static_cast<std::int32_t>(w);
+  for (const std::ptrdiff_t n : fluid.after.nodes()) {
     const bool hidden = fluid.after.node_fraction[n] < covered;
+    std::array<bool, 3> flat{};
+    for (int axis = 0; axis < 3; ++axis) flat[axis] = solid_on_one_side(fluid, n, axis);
+    if (!hidden && !flat[0] && !flat[1] && !flat[2]) continue;
+    const WallsAround around = walls_around(fluid, n);
     Change change{n, {fluid.velocity[0][n], fluid.velocity[1][n], fluid.velocity[2][n]}, nearest_wall(around)};
     bool changed = hidden;
     if (hidden) {
       const auto mean = mean_of_neighbours(fluid, n);
-      for (int d = 0; d < 3; ++d) change.velocity[d] = mean ? (*mean)[d] : wall_speed(around, d).value_or(around[0].wall->velocity[0][d]);
+      for (int d = 0; d < 3; ++d) change.velocity[d] = mean ? (*mean)[d] : wall_speed(around, d).value_or(inner_velocity(around, d));
     }
     for (int axis = 0; axis < 3; ++axis) {
-      if (!solid_on_one_side(fluid, n, axis)) continue;
+      if (!flat[axis]) continue;
       if (const auto speed = wall_speed(around, axis)) {
         change.velocity[axis] = *speed;
         changed = true;
@@ -133,6 +132,7 @@ void fix_covered_nodes(Fluid& fluid) {
     }
     if (changed) changes.push_back(change);
   }
+  for (const WallPiece& wall : fluid.after.walls) fluid.label[wall.cell] = -1;
   for (const auto& [n, velocity, receiver] : changes) {
     const double mass = fluid.node_mass[n];
     for (int d = 0; d < 3; ++d) {

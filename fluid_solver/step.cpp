@@ -9,15 +9,24 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
   std::vector<StepWall> walls;
   VolumeCorrection correction;
   {
-    const auto lap = fluid.watch.lap("geometry");
+    const auto lap = fluid.watch.lap("cut geometry");
     std::swap(fluid.before, fluid.after);
     fluid.after.set(fluid.grid, fluid.setup.boundary, overlap);
     if (fluid.steps == 0) fluid.before.open_like(fluid.after);
+  }
+  {
+    const auto lap = fluid.watch.lap("groups");
     fluid.groups = find_groups(fluid.grid, fluid.before, fluid.after, fluid.groups, fluid.label);
+  }
+  {
+    const auto lap = fluid.watch.lap("volume correction");
     walls = join_walls(fluid.before, fluid.after);
     account.released_room += release_room(fluid.grid, fluid.before, fluid.after, walls, dt);
     correction = correct_volumes(fluid.grid, fluid.before, fluid.after, walls, dt, fluid.label);
     fluid.correction_iterations = correction.iterations;
+  }
+  {
+    const auto lap = fluid.watch.lap("face coefficients");
     update_face_coefficients(fluid);
     apply_to_cells(fluid, correction);
   }
@@ -54,11 +63,14 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     remap_momentum(fluid);
   }
   {
-    const auto lap = fluid.watch.lap("account");
+    const auto lap = fluid.watch.lap("wall nodes");
     const double kinetic_after_remap = kinetic_energy(fluid, fluid.velocity);
     account.remap_loss += kinetic_before_remap - kinetic_after_remap;
     fix_covered_nodes(fluid);
     close_wall_nodes(fluid);
+  }
+  {
+    const auto lap = fluid.watch.lap("account");
     fluid.time += dt;
     ++fluid.steps;
     update_account(fluid);
