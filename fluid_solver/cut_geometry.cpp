@@ -7,12 +7,6 @@
 
 namespace polynya::fluid {
 
-double full_volume(const Grid& grid, std::ptrdiff_t cell) {
-  int i, j, k;
-  grid.position(cell, i, j, k);
-  return grid.dx[i] * grid.dy[j] * grid.dz[k];
-}
-
 double empty_open_fraction(const Grid& grid, const std::array<Boundary, 6>& boundary, int axis, std::ptrdiff_t face) {
   const std::array<int, 3> number{grid.nx, grid.ny, grid.nz};
   std::array<int, 3> index{};
@@ -31,7 +25,7 @@ CutGeometry::CutGeometry(const Grid& grid, const std::array<Boundary, 6>& bounda
   for_rows(grid, 1, [&](int j, int k) {
     for (int i = 1; i <= grid.nx + 1; ++i) {
       const std::ptrdiff_t c = grid.at(i, j, k);
-      if (i <= grid.nx && j <= grid.ny && k <= grid.nz) volume[c] = full_volume(grid, c);
+      if (i <= grid.nx && j <= grid.ny && k <= grid.nz) volume[c] = grid.cell_volume[c];
       for (int axis = 0; axis < 3; ++axis) open[axis][c] = empty_open_fraction(grid, boundary, axis, c);
       node_fraction[c] = 1.0;
     }
@@ -39,7 +33,7 @@ CutGeometry::CutGeometry(const Grid& grid, const std::array<Boundary, 6>& bounda
 }
 
 void CutGeometry::restore(const Grid& grid, const std::array<Boundary, 6>& boundary) {
-  for (const std::ptrdiff_t c : cells_) volume[c] = full_volume(grid, c);
+  for (const std::ptrdiff_t c : cells_) volume[c] = grid.cell_volume[c];
   for (int axis = 0; axis < 3; ++axis) {
     for (const std::ptrdiff_t f : faces_[axis]) open[axis][f] = empty_open_fraction(grid, boundary, axis, f);
     faces_[axis].clear();
@@ -55,7 +49,7 @@ void CutGeometry::set(const Grid& grid, const std::array<Boundary, 6>& boundary,
   restore(grid, boundary);
   for (std::size_t m = 0; m < overlap.cell.size(); ++m) {
     const std::ptrdiff_t c = grid.from_message(overlap.cell[m]);
-    const double full = full_volume(grid, c), solid = overlap.solid_volume[m];
+    const double full = grid.cell_volume[c], solid = overlap.solid_volume[m];
     double debris = overlap.debris_volume.empty() ? 0.0 : overlap.debris_volume[m];
     if (!(solid >= -1e-9 * full && solid <= full * (1.0 + 1e-9) && debris >= 0)) {
       throw std::invalid_argument("overlap cell " + std::to_string(overlap.cell[m]) + ": solid volume " +
@@ -131,8 +125,8 @@ void CutGeometry::update_nodes(const Grid& grid) {
     int number = 0;
     for (int corner = 0; corner < 8; ++corner) {
       const std::ptrdiff_t c = n - (corner & 1) - (corner & 2 ? grid.sy : 0) - (corner & 4 ? grid.sz : 0);
-      const double full = full_volume(grid, c);
-      const bool inside = grid.inside(c);
+      const double full = grid.cell_volume[c];
+      const bool inside = full > 0;
       sum += inside ? volume[c] / full : 0.0;
       number += inside;
     }

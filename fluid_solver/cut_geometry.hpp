@@ -43,8 +43,6 @@ struct CutGeometry {
   std::array<std::vector<std::ptrdiff_t>, 3> faces_;
 };
 
-/// Volume of a cell without solids.
-double full_volume(const Grid& grid, std::ptrdiff_t cell);
 /// Open fraction of a face without solids: 1 inside and at open boundaries, 0 at walls and outside.
 double empty_open_fraction(const Grid& grid, const std::array<Boundary, 6>& boundary, int axis, std::ptrdiff_t face);
 

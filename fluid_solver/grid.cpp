@@ -32,6 +32,12 @@ Grid::Grid(std::vector<double> x_lines, std::vector<double> y_lines, std::vector
   sy = nx + 3;
   sz = sy * (ny + 3);
   size = static_cast<std::size_t>(sz) * (nz + 3);
+  cell_volume.assign(size, 0.0);
+  for (int k = 1; k <= nz; ++k) {
+    for (int j = 1; j <= ny; ++j) {
+      for (int i = 1; i <= nx; ++i) cell_volume[static_cast<std::size_t>(at(i, j, k))] = dx[i] * dy[j] * dz[k];
+    }
+  }
 }
 
 std::ptrdiff_t Grid::from_message(std::int64_t cell) const {

@@ -16,6 +16,7 @@ struct Grid {
   std::vector<double> dx, dy, dz;  ///< widths by padded index (n+3; ghosts repeat their neighbour)
   std::ptrdiff_t sy = 0, sz = 0;   ///< strides of j and k
   std::size_t size = 0;            ///< entries of every array
+  std::vector<double> cell_volume; ///< by padded index, m^3; 0 for what is no cell of the grid
 
   /// Throws std::invalid_argument if a line has fewer than two nodes or does not increase.
   Grid(std::vector<double> x_lines, std::vector<double> y_lines, std::vector<double> z_lines);
@@ -36,11 +37,7 @@ struct Grid {
   double centre_z(int k) const { return 0.5 * (z[k - 1] + z[k]); }
   std::size_t cells() const { return static_cast<std::size_t>(nx) * ny * nz; }
   std::ptrdiff_t stride(int axis) const { return axis == 0 ? 1 : axis == 1 ? sy : sz; }
-  bool inside(std::ptrdiff_t cell) const {
-    int i, j, k;
-    position(cell, i, j, k);
-    return i >= 1 && i <= nx && j >= 1 && j <= ny && k >= 1 && k <= nz;
-  }
+  bool inside(std::ptrdiff_t cell) const { return cell_volume[static_cast<std::size_t>(cell)] > 0; }
 };
 
 /// Runs body(j, k) for rows 1..ny+extra, 1..nz+extra, in fixed chunks shared among the threads.

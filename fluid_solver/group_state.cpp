@@ -32,7 +32,7 @@ double height_of(const Grid& grid, std::ptrdiff_t cell) { return grid.centre_z(s
 
 /// The part of its own change of volume that a member keeps: all of it from half full on, none where it is empty.
 double kept_share(const Grid& grid, std::ptrdiff_t cell, double volume) {
-  return std::min(1.0, volume / (0.5 * full_volume(grid, cell)));
+  return std::min(1.0, volume / (0.5 * grid.cell_volume[cell]));
 }
 
 /// Rate of strain of every member. A member is strained by its own rate of volume, but one under half full hands the rest

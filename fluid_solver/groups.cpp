@@ -39,7 +39,7 @@ class Builder {
  private:
   double least(std::ptrdiff_t c) const { return std::min(before_.volume[c], after_.volume[c]); }
   double most(std::ptrdiff_t c) const { return std::max(before_.volume[c], after_.volume[c]); }
-  bool is_small(std::ptrdiff_t c) const { return least(c) < 0.5 * full_volume(grid_, c); }
+  bool is_small(std::ptrdiff_t c) const { return least(c) < 0.5 * grid_.cell_volume[c]; }
   double openness(std::ptrdiff_t c, int side) const {
     const std::ptrdiff_t f = side % 2 ? c + grid_.stride(side / 2) : c;
     return 0.5 * (before_.open[side / 2][f] + after_.open[side / 2][f]);
@@ -123,7 +123,7 @@ class Builder {
       bool changed = false;
       for (std::size_t s = 0; s < number; ++s) {
         if (sets[s].empty() || find(static_cast<std::int32_t>(s)) != static_cast<std::int32_t>(s)) continue;
-        if (held_[s] >= 0.5 * full_volume(grid_, cells_[sets[s][0]])) continue;
+        if (held_[s] >= 0.5 * grid_.cell_volume[cells_[sets[s][0]]]) continue;
         changed = enlarge_set(sets[s]) || changed;
       }
       if (!changed) return;

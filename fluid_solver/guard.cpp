@@ -11,7 +11,7 @@ namespace {
 bool sound(const Fluid& fluid, std::ptrdiff_t c) {
   for (int m = 0; m < 2; ++m) {
     const double mass = fluid.material[m].mass[c], energy = fluid.material[m].energy[c];
-    if (!std::isfinite(mass) || !std::isfinite(energy) || mass < -1e-9 * full_volume(fluid.grid, c)) return false;
+    if (!std::isfinite(mass) || !std::isfinite(energy) || mass < -1e-9 * fluid.grid.cell_volume[c]) return false;
   }
   return std::isfinite(fluid.velocity[0][c]) && std::isfinite(fluid.velocity[1][c]) && std::isfinite(fluid.velocity[2][c]);
 }
@@ -23,7 +23,7 @@ std::string describe(const Fluid& fluid, std::ptrdiff_t c) {
   std::ostringstream text;
   text << "the fluid has lost its meaning in cell " << grid.to_message(c) << " at (" << grid.centre_x(i) << ", "
        << grid.centre_y(j) << ", " << grid.centre_z(k) << ") m, time " << fluid.time << " s, step " << fluid.steps
-       << ": free volume " << fluid.after.volume[c] / full_volume(grid, c) << " of the cell, pressure "
+       << ": free volume " << fluid.after.volume[c] / grid.cell_volume[c] << " of the cell, pressure "
        << fluid.predicted_pressure[c] << " Pa";
   for (int m = 0; m < 2; ++m) {
     text << (m == water ? "; water " : "; air ") << fluid.material[m].mass[c] << " kg, " << fluid.material[m].energy[c]

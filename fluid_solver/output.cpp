@@ -62,7 +62,7 @@ void add_fields(const Fluid& fluid, results::UnstructuredFields& cells) {
     for (int j = 1; j <= grid.ny; ++j) {
       for (int i = 1; i <= grid.nx; ++i, ++at) {
         const std::ptrdiff_t c = grid.at(i, j, k);
-        const double full = full_volume(grid, c), free = fluid.after.volume[c];
+        const double full = grid.cell_volume[c], free = fluid.after.volume[c];
         pressure.values[at] = fluid.density[c] > 0 ? absolute[c] - fluid.setup.atmospheric_pressure : 0.0;
         const double held = fluid.material[water].volume[c] + fluid.material[air].volume[c];
         water_part.values[at] = held > 0 ? fluid.material[water].volume[c] / held * free / full : 0.0;

@@ -75,7 +75,7 @@ class Projection {
 
   bool follows_root(std::size_t member) const {
     const std::ptrdiff_t c = f_.groups.members[member].cell;
-    return f_.after.volume[c] < own_fill * full_volume(f_.grid, c);
+    return f_.after.volume[c] < own_fill * f_.grid.cell_volume[c];
   }
 
   void find_diagonal() {

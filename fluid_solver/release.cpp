@@ -11,7 +11,7 @@ double release_room(const Grid& grid, CutGeometry& before, const CutGeometry& af
   constexpr double least_fraction = 0.05;
   const auto jump = [&](const StepWall& wall) {
     const double room = unexplained_change(wall, before, after, dt);
-    return room < least_fraction * full_volume(grid, wall.cell) ? 0.0 : room;
+    return room < least_fraction * grid.cell_volume[wall.cell] ? 0.0 : room;
   };
   double net = 0, gained = 0;
   for (const StepWall& wall : walls) {

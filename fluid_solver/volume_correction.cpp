@@ -23,7 +23,7 @@ class Network {
           double dt, std::vector<std::int32_t>& label)
       : grid_(grid), before_(before), after_(after), label_(label) {
     for (const StepWall& wall : walls)
-      if (std::abs(unexplained_change(wall, before, after, dt)) > tolerance * full_volume(grid, wall.cell)) add(wall.cell);
+      if (std::abs(unexplained_change(wall, before, after, dt)) > tolerance * grid.cell_volume[wall.cell]) add(wall.cell);
     std::size_t from = 0;
     for (int layer = 0; layer < layers; ++layer) {
       const std::size_t to = cells.size();
@@ -123,7 +123,7 @@ class Network {
     if (label_[c] >= 0 || !grid_.inside(c) || mean_volume(c) <= 0) return;
     label_[c] = static_cast<std::int32_t>(cells.size());
     cells.push_back(c);
-    full_volume_.push_back(full_volume(grid_, c));
+    full_volume_.push_back(grid_.cell_volume[c]);
   }
   double face_weight(std::ptrdiff_t c, int side) const {
     const int axis = side / 2;
