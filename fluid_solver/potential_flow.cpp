@@ -12,7 +12,7 @@ namespace polynya::fluid {
 namespace {
 
 using Field = std::vector<double>;
-constexpr int most_iterations = 3000;
+constexpr int most_iterations = 20000;
 /// A member of a group that is at least so full keeps its own impulse: the step's prediction also holds the members of a
 /// group to the walls' motion one by one, and a start that ignores it would begin with a jolt.
 constexpr double own_fill = 1e-4;
@@ -38,15 +38,17 @@ class Projection {
     for (; iteration < most_iterations && rho > 0 && dot(residual, residual) > goal; ++iteration) {
       apply(direction, image);
       const double step = rho / dot(direction, image);
-      for (std::size_t c = 0; c < size; ++c) {
+      for_all([&](std::size_t c) {
         impulse[c] += step * direction[c];
         residual[c] -= step * image[c];
-      }
+      });
       precondition(residual, z);
       const double next = dot(residual, z);
-      for (std::size_t c = 0; c < size; ++c) direction[c] = z[c] + next / rho * direction[c];
+      for_all([&](std::size_t c) { direction[c] = z[c] + next / rho * direction[c]; });
       rho = next;
     }
+    if (iteration == most_iterations)
+      throw FluidError("the flow that the run starts with was not found in " + std::to_string(iteration) + " iterations");
     give_kick(impulse);
     for (int d = 0; d < 3; ++d) {
       for (std::size_t n = 0; n < size; ++n) f_.velocity[d][n] += kick_[d][n];
@@ -181,14 +183,21 @@ class Projection {
     face_rates(f_, kick_, f_.face_rate);
     sum_rates(image, -1.0);
     gather_groups(image);
-    for (std::size_t c = 0; c < image.size(); ++c) {
+    for_all([&](std::size_t c) {
       image[c] *= unknown_[c];
       direction[c] *= unknown_[c];  // members were copies
-    }
+    });
   }
 
   void precondition(const Field& residual, Field& z) const {
-    for (std::size_t c = 0; c < z.size(); ++c) z[c] = unknown_[c] > 0 && diagonal_[c] > 0 ? residual[c] / diagonal_[c] : 0.0;
+    for_all([&](std::size_t c) { z[c] = unknown_[c] > 0 && diagonal_[c] > 0 ? residual[c] / diagonal_[c] : 0.0; });
+  }
+
+  template <class Body>
+  void for_all(Body&& body) const {
+    compute::for_chunks(f_.grid.size, 1 << 14, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c) body(c);
+    });
   }
 
   double dot(const Field& a, const Field& b) const {
