@@ -13,7 +13,7 @@ namespace {
 
 struct Options {
   std::string scene, out, endpoint, run;
-  double connect_timeout = 60;  // s, for participants that never come
+  double connect_timeout = 0;  // s, for participants that never come; 0: the scene's
 };
 
 void start_log(const std::string& run_folder) {
@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out, "run folder")->required();
   app.add_option("--bind", options.endpoint, "endpoint, e.g. ipc:///tmp/x/coupler or tcp://0.0.0.0:5555")->required();
   app.add_option("--run", options.run, "identity of the run; participants must name the same")->required();
-  app.add_option("--connect-timeout", options.connect_timeout, "seconds to wait for all participants");
+  app.add_option("--connect-timeout", options.connect_timeout, "seconds to wait for all participants (default: the scene's)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   polynya::scene::Scene scene;
   try {
     scene = polynya::scene::load_resolved_scene(options.scene);
+    if (options.connect_timeout <= 0) options.connect_timeout = scene.run.join_timeout;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "coupler: %s\n", error.what());
     return 2;

@@ -2,32 +2,36 @@
 from __future__ import annotations
 
 import os
-import shlex
 import shutil
+import subprocess
 import tempfile
 import uuid
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from launcher import WrongInput
+from launcher import Failure, swap
 
 PROGRAMS = {"structure": "structure_solver", "ice": "ice_solver", "fluid": "fluid_solver", "coupler": "coupler"}
 SOCKET_PREFIX = "polynya-"
+SURFACE = "vehicle_surface.json"
 
 
 @dataclass(frozen=True)
 class Plan:
-    """One process to start. `setting`: the scene's key that named the command, if one did."""
+    """One process to start. `setting`: the scene's key that named the command, if one did; `folder`: where it starts,
+    None: where the launcher was started."""
 
     name: str
     command: list[str]
     environment: dict[str, str] = field(default_factory=dict)
     setting: str | None = None
+    folder: str | None = None
 
 
-def programs_for(names: list[str]) -> list[str]:
-    """The programs (build targets) of these participants."""
-    return [PROGRAMS[name] for name in names] + ([PROGRAMS["coupler"]] if len(names) > 1 else [])
+def programs_for(scene: dict, names: list[str]) -> list[str]:
+    """Our own programs (build targets) that a run starts."""
+    own = [PROGRAMS[name] for name in names if not swap.is_replaced(scene, name)]
+    return own + ([PROGRAMS["coupler"]] if len(names) > 1 else [])
 
 
 def threads_for(name: str, cores: int, coupled: bool) -> int:
@@ -40,38 +44,38 @@ def threads_for(name: str, cores: int, coupled: bool) -> int:
 def plan(scene: dict, names: list[str], folder: Path, binaries: Path, cores: int, socket: Path | None) -> list[Plan]:
     """The processes of a run in the order of starting; `socket` is the endpoint's file of a coupled run."""
     coupled = socket is not None
-    run_id = uuid.uuid4().hex[:16]
-    common = ["--scene", str(folder / "scene.json"), "--out", str(folder)]
+    endpoint, run_id = f"ipc://{socket}", uuid.uuid4().hex[:16]
     plans = []
     for name in (["coupler"] if coupled else []) + names:
-        arguments = list(common)
         if name == "coupler":
-            arguments += ["--bind", f"ipc://{socket}", "--run", run_id]
+            words = [*common_arguments(folder), "--bind", endpoint, "--run", run_id]
         else:
-            arguments += ["--name", name]
-            arguments += ["--connect", f"ipc://{socket}", "--run", run_id] if coupled else []
-        front, setting = executable(scene, name, binaries)
+            words = arguments(name, folder, endpoint if coupled else None, run_id)
+        front, setting, start_folder = swap.front(scene, name, str(binaries / PROGRAMS[name]))
         environment = {"OMP_WAIT_POLICY": "passive", "OMP_NUM_THREADS": str(threads_for(name, cores, coupled))}
-        plans.append(Plan(name, front + arguments, environment, setting))
+        plans.append(Plan(name, front + words, environment, setting, start_folder))
     return plans
 
 
-def executable(scene: dict, name: str, binaries: Path) -> tuple[list[str], str | None]:
-    """The words before the arguments: `launch`, then `command` or the project's own program."""
-    wishes = (scene.get("participants") or {}).get(name) or {}
-    words = {key: split(wishes.get(key) or "", f"participants.{name}.{key}") for key in ("launch", "command")}
-    setting = next((f"participants.{name}.{key}" for key in ("launch", "command") if words[key]), None)
-    front = words["launch"] + (words["command"] or [str(binaries / PROGRAMS[name])])
-    if setting and shutil.which(front[0]) is None:
-        raise WrongInput(f"{setting}: there is no program '{front[0]}' that can be started")
-    return front, setting
+def common_arguments(folder: Path) -> list[str]:
+    return ["--scene", str(folder / "scene.json"), "--out", str(folder)]
 
 
-def split(text: str, key: str) -> list[str]:
-    try:
-        return shlex.split(text)
-    except ValueError as error:
-        raise WrongInput(f"{key}: {error} in {text!r}") from None
+def arguments(name: str, folder: Path, endpoint: str | None, run_id: str) -> list[str]:
+    """What every participant is given (docs/protocol.md, section 1); `endpoint`: None if it runs alone."""
+    coupled = ["--connect", endpoint, "--run", run_id] if endpoint else []
+    return [*common_arguments(folder), "--name", name, *coupled]
+
+
+def write_surface(scene: dict, folder: Path, binaries: Path) -> None:
+    """RUN/vehicle_surface.json: what our own solver would move, for a program that stands in for it. Raises Failure."""
+    if not scene.get("vehicle"):
+        return
+    program = [str(binaries / PROGRAMS["structure"]), *common_arguments(folder)]
+    result = subprocess.run([*program, "--write-surface", str(folder / SURFACE)], stdin=subprocess.DEVNULL,
+                            capture_output=True, text=True, check=False)
+    if result.returncode != 0:
+        raise Failure(f"the vehicle's surface could not be written: {result.stderr.strip()}")
 
 
 def make_socket_folder() -> Path:

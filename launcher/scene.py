@@ -5,7 +5,7 @@ import json
 import subprocess
 from pathlib import Path
 
-from launcher import ROOT, WRONG_INPUT, Failure, WrongInput, build
+from launcher import ROOT, WRONG_INPUT, Failure, WrongInput, build, swap
 
 SCENE_FILE = "scene.toml"
 SOLVERS = ("structure", "ice", "fluid")
@@ -25,7 +25,7 @@ def candidates(start: Path) -> list[Path]:
 
 
 def resolve(file: Path, level: str | None, settings: list[str], explain: bool = False) -> dict:
-    """The resolved scene, all in SI; `explain` adds an estimate of size and cost.
+    """The resolved scene, all in SI, programs of participants found; `explain` adds an estimate of size and cost.
 
     The resolver's own sentence and exit code come through when it refuses."""
     program = build.program_folder() / "resolve_scene"
@@ -42,9 +42,11 @@ def resolve(file: Path, level: str | None, settings: list[str], explain: bool = 
         sentence = result.stderr.strip() or f"resolve_scene ended with exit code {result.returncode}"
         raise (WrongInput if result.returncode == WRONG_INPUT else Failure)(sentence.removeprefix("resolve_scene: "))
     try:
-        return json.loads(result.stdout)
+        scene = json.loads(result.stdout)
     except ValueError as error:
         raise Failure(f"resolve_scene wrote something that is not JSON: {error}") from None
+    swap.settle(scene, file.parent, settings)
+    return scene
 
 
 def refuse_what_does_not_fit(scene: dict) -> None:

@@ -62,11 +62,8 @@ class Child:
             pass
 
     def last_words(self) -> str:
-        """The last line on stderr, without the decoration of the log."""
-        with open(self.stderr, "rb") as file:
-            file.seek(max(0, os.path.getsize(self.stderr) - 4096))
-            lines = [line.strip() for line in file.read().decode("utf-8", "replace").splitlines()]
-        words = next((line for line in reversed(lines) if line), "")
+        """The last line on stderr, else on stdout, without the decoration of the log."""
+        words = last_line(self.stderr) or last_line(self.stderr.with_suffix(".stdout"))
         return LOG_PREFIX.sub("", words).removeprefix(f"{self.name}: ").removeprefix(f"{PROGRAMS[self.name]}: ")
 
     def complains_about_others(self) -> bool:
@@ -99,6 +96,13 @@ def signal_name(number: int) -> str:
         return f"signal {number}"
 
 
+def last_line(file: Path) -> str:
+    with open(file, "rb") as stream:
+        stream.seek(max(0, os.path.getsize(file) - 4096))
+        lines = [line.strip() for line in stream.read().decode("utf-8", "replace").splitlines()]
+    return next((line for line in reversed(lines) if line), "")
+
+
 def die_with_parent() -> None:
     LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
@@ -108,6 +112,7 @@ def start(plan: Plan, logs: Path) -> Child:
     with open(stderr, "wb") as errors, open(logs / f"{plan.name}.stdout", "wb") as output:
         try:
             popen = subprocess.Popen(plan.command, stdin=subprocess.DEVNULL, stdout=output, stderr=errors,
+                                     cwd=plan.folder,
                                      env={**os.environ, **plan.environment}, start_new_session=True,
                                      preexec_fn=die_with_parent)
         except OSError as error:
@@ -115,10 +120,38 @@ def start(plan: Plan, logs: Path) -> Child:
     return Child(plan, popen, stderr, os.pidfd_open(popen.pid))
 
 
-class Supervisor:
-    """Runs a list of plans to their end."""
+def wait(children: list[Child], seconds: float) -> None:
+    """Until one of these processes ends or the time is over."""
+    with selectors.DefaultSelector() as selector:
+        for child in running(children):
+            selector.register(child.handle, selectors.EVENT_READ, child)
+        for key, _ in selector.select(max(0.0, seconds)):
+            key.data.reap(sum(child.status is not None for child in children))
 
-    def __init__(self, plans: list[Plan], logs: Path, on_tick: Callable[[], None]) -> None:
+
+def running(children: list[Child]) -> list[Child]:
+    return [child for child in children if child.status is None]
+
+
+def end(children: list[Child]) -> None:
+    """SIGTERM to what still runs, SIGKILL to what does not listen."""
+    for number, patience in ((signal.SIGTERM, UNTIL_KILLED), (signal.SIGKILL, UNTIL_KILLED)):
+        for child in running(children):
+            child.send(number)
+        deadline = time.monotonic() + patience
+        while running(children) and time.monotonic() < deadline:
+            wait(children, deadline - time.monotonic())
+    for child in children:
+        if child.plan.setting:  # what a wrapper left behind in its group
+            child.send(signal.SIGKILL)
+
+
+class Supervisor:
+    """Runs a list of plans to their end. `has_begun`: whether the participants have met and time goes on."""
+
+    def __init__(self, plans: list[Plan], logs: Path, on_tick: Callable[[], None],
+                 has_begun: Callable[[], bool] = lambda: True) -> None:
+        self.has_begun = has_begun
         self.plans = plans
         self.logs = logs
         self.on_tick = on_tick
@@ -136,7 +169,7 @@ class Supervisor:
         except Failure as error:
             reason, exit_code = str(error), FAILED
         finally:
-            self.stop_all()
+            end(self.children)
             for number, handler in before.items():
                 signal.signal(number, handler)
         return Outcome(exit_code, reason, {child.name: child.usage for child in self.children})
@@ -147,50 +180,38 @@ class Supervisor:
     def watch(self) -> tuple[str | None, int]:
         """Waits for the good end or the first failure; the sentence and the exit code."""
         coupler_ended: float | None = None
-        while self.running():
-            self.wait(TICK)
+        while running(self.children):
+            wait(self.children, TICK)
             if self.interrupted is not None:
                 return f"interrupted by {signal_name(self.interrupted)}", FAILED
             if any(child.status for child in self.children):
                 return self.explain_failure()
+            if leaver := self.leaver():
+                return f"before the run had begun, {leaver.why()}", FAILED
             self.on_tick()
             if coupler_ended is None and any(c.name == "coupler" and c.status == 0 for c in self.children):
                 coupler_ended = time.monotonic()
-            if coupler_ended is not None and self.running() and time.monotonic() - coupler_ended > UNTIL_MISSED:
-                names = " and ".join(child.name for child in self.running())
+            if coupler_ended is not None and running(self.children) and time.monotonic() - coupler_ended > UNTIL_MISSED:
+                names = " and ".join(child.name for child in running(self.children))
                 return f"{names} did not end within {UNTIL_MISSED:g} s of the coupler's end", FAILED
         return None, 0
 
     def explain_failure(self) -> tuple[str, int]:
         """The primary cause. A solver's death makes others fail too, and they may be faster to be noticed."""
         deadline = time.monotonic() + GRACE
-        while self.running() and time.monotonic() < deadline:
-            self.wait(deadline - time.monotonic())
+        while running(self.children) and time.monotonic() < deadline:
+            wait(self.children, deadline - time.monotonic())
         culprit = min((child for child in self.children if child.status), key=suspicion)
         return culprit.why(), WRONG_INPUT if culprit.status == WRONG_INPUT else FAILED
 
-    def running(self) -> list[Child]:
-        return [child for child in self.children if child.status is None]
-
-    def wait(self, seconds: float) -> None:
-        """Until a process ends or the time is over."""
-        with selectors.DefaultSelector() as selector:
-            for child in self.running():
-                selector.register(child.handle, selectors.EVENT_READ, child)
-            for key, _ in selector.select(max(0.0, seconds)):
-                key.data.reap(sum(child.status is not None for child in self.children))
-
-    def stop_all(self) -> None:
-        """SIGTERM to what still runs, SIGKILL to what does not listen."""
-        for number, patience in ((signal.SIGTERM, UNTIL_KILLED), (signal.SIGKILL, UNTIL_KILLED)):
-            for child in self.running():
-                child.send(number)
-            deadline = time.monotonic() + patience
-            while self.running() and time.monotonic() < deadline:
-                self.wait(deadline - time.monotonic())
-        for child in self.children:
-            if child.plan.setting:  # what a wrapper left behind in its group
-                child.send(signal.SIGKILL)
+    def leaver(self) -> Child | None:
+        """A participant that ended well before all had met: the coupler would wait for it in vain."""
+        early = [child for child in self.children if child.status == 0 and child.name != "coupler"]
+        coupled = any(child.name == "coupler" and child.status is None for child in self.children)
+        if not early or not coupled or self.has_begun():
+            return None
+        wait(self.children, GRACE)  # what it saw of the run may show only now
+        return None if self.has_begun() or any(child.status for child in self.children) else early[0]
 
 
 def suspicion(child: Child) -> tuple:

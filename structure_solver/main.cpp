@@ -9,13 +9,14 @@
 #include "core/exchange/environment.hpp"
 #include "structure_solver/conversation.hpp"
 #include "structure_solver/free_flight.hpp"
+#include "structure_solver/surface_file.hpp"
 
 namespace {
 
 using namespace polynya;
 
 struct Options {
-  std::string scene, out, endpoint, run, name = "structure";
+  std::string scene, out, endpoint, run, name = "structure", surface;
   int threads = 0;
 };
 
@@ -27,6 +28,7 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   auto* connect = app.add_option("--connect", options.endpoint, "the coupler's endpoint");
   app.add_option("--run", options.run, "identity of the run, the coupler's")->needs(connect);
   app.add_option("--name", options.name, "name under which the coupler expects this process");
+  app.add_option("--write-surface", options.surface, "write the hull to this file (JSON) and end")->excludes(connect);
   app.add_option("--threads", options.threads, "threads to use; 0: as many as OpenMP offers")
       ->check(CLI::NonNegativeNumber);
   try {
@@ -93,6 +95,10 @@ int main(int argc, char** argv) {
     start_log(options);
     vehicle = structure::build_vehicle(scene);
     describe(vehicle);
+    if (!options.surface.empty()) {
+      structure::write_surface(options.surface, vehicle);
+      return 0;
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "structure_solver: %s\n", error.what());
     return 2;

@@ -16,7 +16,26 @@ Eigen::Vector3d body_angular_velocity(const RigidMotion& body, const Eigen::Vect
   return body.inertia.inverse() * body_momentum;
 }
 
+Eigen::Vector3d point(std::span<const double> nodes, std::size_t i) {
+  return {nodes[3 * i], nodes[3 * i + 1], nodes[3 * i + 2]};
+}
+
 }  // namespace
+
+RigidMotion body_of_points(std::span<const double> nodes, std::span<const double> masses) {
+  RigidMotion body;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    body.mass += masses[i];
+    body.centre += masses[i] * point(nodes, i);
+  }
+  body.centre /= body.mass;
+  body.inertia.setZero();
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    const Eigen::Vector3d r = point(nodes, i) - body.centre;
+    body.inertia += masses[i] * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+  }
+  return body;
+}
 
 void advance(RigidMotion& body, double dt) {
   body.centre += dt * body.velocity;

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <span>
 
 namespace polynya::structure {
 
@@ -19,6 +20,9 @@ struct RigidMotion {
   double kinetic_energy = 0;                                   ///< J at t(n), see push()
   double step_change = 0;                                      ///< J, sum of what push() re-read
 };
+
+/// The body at rest that these points make: nodes [n][3] in m, masses [n] in kg.
+RigidMotion body_of_points(std::span<const double> nodes, std::span<const double> masses);
 
 /// Moves centre and orientation by one step. The orientation turns by the angular velocity that belongs to the mean of
 /// the body-frame angular momenta before and after: angular momentum and, without torque, energy are kept to rounding.

@@ -65,6 +65,7 @@ void read_run(const Values& values, Scene& scene) {
   run.step_factor = values.number("run.step_factor");
   run.fluid_step_factor = values.number("run.fluid_step_factor");
   run.filter_frequency = values.number("run.filter_frequency");
+  run.join_timeout = values.number("run.join_timeout");
   run.gravity = values.number("run.gravity");
   run.seed = std::lround(values.number("run.seed"));
 }

@@ -39,6 +39,7 @@ struct Run {
   double fluid_step_factor = 0;
   double filter_frequency = 0;  ///< Hz, low-pass of the reported deceleration
   double gravity = 0;           ///< m/s^2, along -z
+  double join_timeout = 0;      ///< s, longest wait for all participants of a coupled run
   long seed = 0;
 };
 

@@ -15,7 +15,8 @@ requires std::is_same_v<std::remove_const_t<Part>, Run>
 void members(Part& p, Visit&& visit) {
   visit("end", p.end), visit("end_time", p.end_time), visit("frame_interval", p.frame_interval);
   visit("step_factor", p.step_factor), visit("fluid_step_factor", p.fluid_step_factor);
-  visit("filter_frequency", p.filter_frequency), visit("gravity", p.gravity), visit("seed", p.seed);
+  visit("filter_frequency", p.filter_frequency), visit("join_timeout", p.join_timeout);
+  visit("gravity", p.gravity), visit("seed", p.seed);
 }
 
 template <class Part, class Visit>

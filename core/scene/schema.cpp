@@ -64,6 +64,7 @@ std::vector<KeyRule> general_rules() {
       positive("run.step_factor", dim::none, "0.9", "fraction of the stable step that the solids use", 1),
       positive("run.fluid_step_factor", dim::none, "1", "fraction of the fluid's stable step (half a cell per sound and flow speed) that it uses", 1),
       positive("run.filter_frequency", dim::frequency, "20 kHz", "low-pass filter of the reported deceleration"),
+      positive("run.join_timeout", dim::time, "60 s", "longest wait for all participants to join a coupled run"),
       number("run.gravity", dim::acceleration, "9.81 m/s^2", "along -z", 0),
       integer("run.seed", "1", "of every random choice", 0),
       positive("resolution.cell", dim::length, "2 mm", "fluid cell in the fine region"),

@@ -67,6 +67,22 @@ std::string last_part(const std::string& path) {
   return path.substr(path.rfind('.') + 1);
 }
 
+/// Tables directly in the table that `path` lies in, if it lies in one.
+std::string sibling_tables(const std::string& path) {
+  const auto dot = path.rfind('.');
+  if (dot == std::string::npos) return {};
+  const std::string prefix = path.substr(0, dot + 1);
+  std::string list, last;
+  for (const KeyRule& rule : schema()) {
+    const auto end = rule.path.find('.', prefix.size());
+    if (!rule.path.starts_with(prefix) || end == std::string::npos) continue;
+    const std::string table = rule.path.substr(0, end);
+    if (table != last) list += (list.empty() ? "" : ", ") + table;
+    last = table;
+  }
+  return list;
+}
+
 /// A key elsewhere whose last part holds that of `path`: "speed" -> "vehicle.speed".
 std::string elsewhere(const std::string& path) {
   if (last_part(path).size() < 4) return {};
@@ -78,6 +94,8 @@ std::string elsewhere(const std::string& path) {
 [[noreturn]] void fail_unknown(const std::string& where, const std::string& path, const std::string& kind,
                                const std::vector<std::string>& candidates) {
   std::string message = where + ": unknown " + kind + " '" + path + "'";
+  if (const auto tables = sibling_tables(path); kind == "table" && !tables.empty())
+    throw SceneError(message + "; allowed here: " + tables);
   auto near = nearest(path, candidates);
   if (near.empty()) near = elsewhere(path);
   if (!near.empty())

@@ -3,11 +3,13 @@ from __future__ import annotations
 
 import argparse
 import json
+import shlex
 
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
-from launcher import DONE, build, processes, report, units
+from launcher import DONE, build, processes, report, swap, units
 from launcher import scene as scenes
 
 
@@ -15,20 +17,26 @@ def run(arguments: argparse.Namespace) -> int:
     file = scenes.find(arguments.scene)
     build.build(["resolve_scene"])
     scene = scenes.resolve(file, arguments.level, arguments.settings, explain=True)
-    programs = processes.programs_for(scenes.participants(scene))
+    names = scenes.participants(scene)
+    programs = processes.programs_for(scene, names)
+    commands = {name: words for name in names for words, setting, _ in
+                [swap.front(scene, name, processes.PROGRAMS[name])] if setting}
     if arguments.json:
         keys = ("name", "title", "level", "symmetry", "estimate", "effects")
-        print(json.dumps({**{key: scene.get(key) for key in keys}, "processes": programs}))
+        print(json.dumps({**{key: scene.get(key) for key in keys}, "processes": programs, "commands": commands}))
     else:
-        print_explanation(scene, programs)
+        print_explanation(scene, programs, commands)
     scenes.refuse_what_does_not_fit(scene)
     return DONE
 
 
-def print_explanation(scene: dict, programs: list[str]) -> None:
+def print_explanation(scene: dict, programs: list[str], commands: dict[str, list[str]]) -> None:
     console = Console(highlight=False)
     console.print(f"\n[bold]{scene.get('title')}[/]  [dim]{scene.get('level')}, {scene.get('symmetry')} model[/]")
-    console.print(f"[dim]processes[/]  {', '.join(programs)}\n")
+    console.print(f"[dim]processes[/]  {', '.join(programs)}")
+    for name, words in commands.items():
+        console.print(f"[dim]{name:<9}[/]  {escape(shlex.join(words))}", soft_wrap=True)
+    console.print()
     estimate = scene.get("estimate") or {}
     console.print(cost_table(estimate))
     verdict = "[green]fits[/]" if estimate.get("fits") else "[bold red]does not fit[/]"

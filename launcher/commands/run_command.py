@@ -9,7 +9,7 @@ import sys
 import time
 from pathlib import Path
 
-from launcher import build, processes, report, run_folder, summary
+from launcher import build, processes, report, run_folder, summary, swap
 from launcher import scene as scenes
 from launcher.live import LiveLine
 from launcher.supervise import Outcome, Supervisor
@@ -25,10 +25,14 @@ def run(arguments: argparse.Namespace) -> int:
     folder = run_folder.choose(arguments.out, scene)
     run_folder.check(folder)
     cores = arguments.threads or len(os.sched_getaffinity(0))
-    build.build(processes.programs_for(names))
+    foreign_vehicle = swap.is_replaced(scene, "structure")
+    own_mesh = [processes.PROGRAMS["structure"]] if foreign_vehicle else []
+    build.build(processes.programs_for(scene, names) + own_mesh)
 
     started = time.monotonic()
     with run_folder.prepare(folder, scene):
+        if foreign_vehicle:
+            processes.write_surface(scene, folder, build.program_folder())
         outcome = supervise(scene, names, folder, cores, plain=arguments.json)
         result = summary.merge(folder, scene, names, outcome, time.monotonic() - started)
         if outcome.reason:
@@ -47,8 +51,9 @@ def supervise(scene: dict, names: list[str], folder: Path, cores: int, plain: bo
     try:
         socket = socket_folder / "coupler" if socket_folder else None
         plans = processes.plan(scene, names, folder, build.program_folder(), cores, socket)
-        with LiveLine(scene, summary.series_path(folder, names), plain) as line:
-            return Supervisor(plans, folder / "logs", line.update).run()
+        series = summary.series_path(folder, names)
+        with LiveLine(scene, series, plain) as line:
+            return Supervisor(plans, folder / "logs", line.update, has_begun=series.exists).run()
     finally:
         if socket_folder:
             shutil.rmtree(socket_folder, ignore_errors=True)
