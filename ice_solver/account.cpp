@@ -24,8 +24,8 @@ Account account_of(const IceBody& ice) {
                           books.particle_load_work.total + books.prescribed_work;
   account.step_change = elements.step_change + books.particle_step_change.total;
   account.momentum = books.momentum;
-  for (std::size_t c = 0; c < 3; ++c) account.boundary_impulse[c] = books.boundary_impulse[c].total;
-  account.gravity_impulse = books.gravity_impulse.total;
+  account.boundary_impulse = books.boundary_impulse;
+  account.gravity_impulse = books.gravity_impulse;
   account.mass = sum_of(ice.solid.masses) + sum_of(ice.particles.points.mass);
   account.broken_mass = books.broken_mass;
   account.converted_elements = static_cast<double>(books.converted.strained + books.converted.collapsed);

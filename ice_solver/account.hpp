@@ -19,8 +19,8 @@ struct Account {
   double external_work = 0;     ///< done by loads and by what holds prescribed nodes
   double gravity_work = 0;
   double step_change = 0;       ///< see continuum::EnergyAccount
-  std::array<double, 3> momentum{}, boundary_impulse{};  ///< N s
-  double gravity_impulse = 0;   ///< N s, along z
+  std::array<double, 3> momentum{}, boundary_impulse{};  ///< N s, at t(n+1/2)
+  double gravity_impulse = 0;   ///< N s, along z, at t(n+1/2)
   double mass = 0, broken_mass = 0;                      ///< kg
   double converted_elements = 0, particles = 0;
 

@@ -60,9 +60,9 @@ struct IceBooks {
   double prescribed_work = 0;                       ///< kinetic energy given to nodes whose velocity is set from outside
   Trapezoid particle_heat;                          ///< taken from the motion by the artificial viscosity
   Trapezoid node_pair_work, node_gravity_work, particle_gravity_work, particle_load_work;
-  std::array<Trapezoid, 3> boundary_impulse;        ///< of symmetry planes, held and damped nodes
-  Trapezoid gravity_impulse;                        ///< along z
-  std::array<double, 3> momentum{};                 ///< at t(n)
+  std::array<double, 3> boundary_impulse{};         ///< of symmetry planes, held and damped nodes, until t(n+1/2)
+  double gravity_impulse = 0;                       ///< along z, until t(n+1/2)
+  std::array<double, 3> momentum{};                 ///< at t(n+1/2)
 };
 
 struct IceBody {

@@ -79,12 +79,10 @@ void advance_particles(IceBody& ice, std::span<const double> loads, double dt_pr
 /// Per component, N and N s.
 struct MomentumBalance {
   std::array<double, 3> boundary{};  ///< what planes, held and damped nodes push with
-  std::array<double, 3> rate{};      ///< of change, by all forces
   std::array<double, 3> momentum{};  ///< with the velocities after the step
   void add(const MomentumBalance& other) {
     for (std::size_t c = 0; c < 3; ++c) {
       boundary[c] += other.boundary[c];
-      rate[c] += other.rate[c];
       momentum[c] += other.momentum[c];
     }
   }
@@ -99,7 +97,6 @@ void add_node(const IceBody& ice, std::size_t n, MomentumBalance& sum) {
     const std::size_t k = 3 * n + c;
     const bool is_free = mass > 0 && (solid.fixed[n] >> c & 1) == 0;
     sum.boundary[c] += ice.pair_force[k] + (is_free ? solid.internal_force[k] : -ice.nodal_force[k]);
-    sum.rate[c] += is_free ? solid.internal_force[k] + ice.nodal_force[k] : 0.0;
     sum.momentum[c] += mass * solid.velocities[k];
   }
 }
@@ -108,7 +105,6 @@ void add_particle(const Particles& p, std::size_t i, MomentumBalance& sum) {
   for (std::size_t c = 0; c < 3; ++c) {
     const std::size_t k = 3 * i + c;
     sum.boundary[c] += p.points.force[k];
-    sum.rate[c] += p.points.mass[i] * p.acceleration[k];
     sum.momentum[c] += p.points.mass[i] * p.points.velocity[k];
   }
 }
@@ -126,18 +122,20 @@ MomentumBalance momentum_balance(const IceBody& ice) {
   return total;
 }
 
+/// Of the velocities at t(n+1/2), which hold the impulse of every force so far: momentum and impulses balance to rounding.
 void book_momentum(IceBody& ice, double dt_previous, double dt_next) {
   const MomentumBalance balance = momentum_balance(ice);
+  const double acting_time = 0.5 * (dt_previous + dt_next);
   for (std::size_t c = 0; c < 3; ++c) {
-    ice.books.boundary_impulse[c].add(0.5 * dt_previous * balance.boundary[c], 0.5 * dt_next * balance.boundary[c]);
-    ice.books.momentum[c] = balance.momentum[c] - 0.5 * dt_next * balance.rate[c];
+    ice.books.boundary_impulse[c] += acting_time * balance.boundary[c];
+    ice.books.momentum[c] = balance.momentum[c];
   }
   if (ice.options.gravity == 0) return;
   const auto sum = [](const std::vector<double>& mass) {
     return ordered_sum(mass.size(), 4096, [&](std::size_t i) { return mass[i]; });
   };
   const double weight = -ice.options.gravity * (sum(ice.solid.masses) + sum(ice.particles.points.mass));
-  ice.books.gravity_impulse.add(0.5 * dt_previous * weight, 0.5 * dt_next * weight);
+  ice.books.gravity_impulse += acting_time * weight;
 }
 
 }  // namespace

@@ -50,6 +50,7 @@ void DeformableVehicle::finish_step(std::span<const double> hull_force, double d
   if (!hull_force.empty())
     for (std::size_t v = 0; v < hull_nodes_.size(); ++v)
       for (int a = 0; a < 3; ++a) external_[3 * hull_nodes_[v] + a] += hull_force[3 * v + a];
+  gravity_impulse_ -= 0.5 * (dt_previous + dt_next) * mass_ * gravity_;
   continuum::advance_velocities(solid_, external_, dt_previous, dt_next);
 }
 
@@ -81,6 +82,7 @@ Account DeformableVehicle::account() const {
       return solid_.masses[i] * solid_.velocities[3 * i + c];
     });
   a.speed_z = a.momentum[2] / mass_;
+  a.gravity_impulse = gravity_impulse_;
   a.head_stress = probe_.head_average(solid_);
   a.head_stress_vertex = probe_.head_maximum(solid_);
   return a;

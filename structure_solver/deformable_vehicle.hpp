@@ -38,7 +38,7 @@ class DeformableVehicle final : public VehicleBody {
   continuum::ExplicitSolid solid_;
   std::vector<std::int32_t> hull_nodes_;
   StressProbe probe_;
-  double gravity_ = 0, mass_ = 0, initial_centre_z_ = 0;
+  double gravity_ = 0, mass_ = 0, initial_centre_z_ = 0, gravity_impulse_ = 0;
   std::vector<double> weight_, external_;  ///< [n][3], N
 };
 

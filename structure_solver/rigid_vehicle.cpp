@@ -23,20 +23,11 @@ Eigen::Vector3d node(const std::vector<double>& coordinates, std::size_t i) {
 
 RigidVehicle::RigidVehicle(const geometry::VehicleMesh& mesh, std::span<const double> node_masses,
                            geometry::Portion portion, const Launch& launch)
-    : gravity_(launch.gravity), reference_(mesh.hexahedra.nodes) {
-  const std::size_t nodes = node_masses.size();
+    : motion_(body_of_points(mesh.hexahedra.nodes, node_masses)),
+      gravity_(launch.gravity),
+      reference_(mesh.hexahedra.nodes) {
   motion_.freedom = freedom_of(portion);
-  for (std::size_t i = 0; i < nodes; ++i) {
-    motion_.mass += node_masses[i];
-    motion_.centre += node_masses[i] * node(reference_, i);
-  }
-  motion_.centre /= motion_.mass;
-  motion_.inertia.setZero();
-  for (std::size_t i = 0; i < nodes; ++i) {
-    arms_.push_back(node(reference_, i) - motion_.centre);
-    const Eigen::Vector3d& r = arms_.back();
-    motion_.inertia += node_masses[i] * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
-  }
+  for (std::size_t i = 0; i < node_masses.size(); ++i) arms_.push_back(node(reference_, i) - motion_.centre);
   motion_.velocity = {0, 0, launch.speed};
   initial_centre_z_ = motion_.centre.z();
   for (const std::int32_t i : mesh.hull_nodes) hull_arms_.push_back(arms_[i]);
@@ -78,6 +69,7 @@ void RigidVehicle::finish_step(std::span<const double> hull_force, double dt_pre
     work_ += 0.5 * dt_previous * (last_force_[v] + f).dot(hull_velocity(v));
     last_force_[v] = f;
   }
+  gravity_impulse_ -= 0.5 * (dt_previous + dt_next) * motion_.mass * gravity_;
   push(motion_, force, torque, dt_previous, dt_next);
 }
 
@@ -91,6 +83,7 @@ Account RigidVehicle::account() const {
   a.gravity_work = -motion_.mass * gravity_ * (a.centre_of_mass_z - initial_centre_z_);
   for (int c = 0; c < 3; ++c) a.momentum[c] = motion_.mass * motion_.velocity[c];
   a.speed_z = motion_.velocity.z();
+  a.gravity_impulse = gravity_impulse_;
   return a;
 }
 

@@ -33,7 +33,7 @@ class RigidVehicle final : public VehicleBody {
   Eigen::Vector3d hull_velocity(std::size_t v) const { return motion_.velocity + turn_rate_ * hull_arms_[v]; }
 
   RigidMotion motion_;
-  double gravity_ = 0, initial_centre_z_ = 0, work_ = 0;
+  double gravity_ = 0, initial_centre_z_ = 0, work_ = 0, gravity_impulse_ = 0;
   std::vector<double> reference_;                        ///< [n][3], m
   Points arms_, hull_arms_;                              ///< from the centre, body frame, m
   Points hull_;                                          ///< m, at t(n)

@@ -19,6 +19,7 @@ struct Account {
   double gravity_work = 0;   ///< J
   double step_change = 0;    ///< J, kinetic energy re-read when the step changes, as in continuum::EnergyAccount
   std::array<double, 3> momentum{};  ///< kg m/s
+  double gravity_impulse = 0;        ///< N s, along z, in momentum
   double mass = 0;                   ///< kg
   double centre_of_mass_z = 0;       ///< m
   double speed_z = 0;                ///< m/s, momentum over mass
@@ -34,7 +35,7 @@ struct Account {
 struct AccountEntry {
   std::string_view name, unit;
 };
-inline constexpr std::array<AccountEntry, 15> account_entries{{{"kinetic", "J"},
+inline constexpr std::array<AccountEntry, 16> account_entries{{{"kinetic", "J"},
                                                                {"internal", "J"},
                                                                {"hourglass", "J"},
                                                                {"viscous", "J"},
@@ -44,6 +45,7 @@ inline constexpr std::array<AccountEntry, 15> account_entries{{{"kinetic", "J"},
                                                                {"momentum_x", "kg m/s"},
                                                                {"momentum_y", "kg m/s"},
                                                                {"momentum_z", "kg m/s"},
+                                                               {"gravity_impulse_z", "N s"},
                                                                {"mass", "kg"},
                                                                {"centre_of_mass_z", "m"},
                                                                {"speed_z", "m/s"},
