@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """A solid in one screen: four mass points that span a tetrahedron and feel only the coupler's loads.
 
-    tetrahedron_solid.py ENDPOINT RUN NAME
+    ./polynya run cases/vehicle_drop --set participants.structure.command="/usr/bin/python3 examples/tetrahedron_solid.py"
 
 Follows docs/protocol.md and stands in for the vehicle. Needs pyzmq and numpy.
 """
+import argparse
 import json
 import os
 import sys
@@ -19,6 +20,7 @@ class Coupler:
     def __init__(self, endpoint, run, name):
         self.run = run
         self.socket = zmq.Context.instance().socket(zmq.DEALER)
+        self.socket.set_hwm(0)
         self.socket.linger = 2000
         self.poller = zmq.Poller()
         self.poller.register(self.socket, zmq.POLLIN)
@@ -46,7 +48,7 @@ class Coupler:
 
 
 def main(endpoint, run, name):
-    x = 0.01 * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype="f8")
+    x = np.array([0.001, 0.001, -0.02]) + 0.01 * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     v = np.tile([0.0, 0.0, 40.0], (4, 1))
     masses = np.full(4, 1e-3)
     topology = {
@@ -75,4 +77,8 @@ def main(endpoint, run, name):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    parser = argparse.ArgumentParser(description="Four mass points as a participant of a coupled run.")
+    for option in ("--scene", "--out", "--name", "--connect", "--run"):
+        parser.add_argument(option, required=True)
+    options = parser.parse_args()
+    main(options.connect, options.run, options.name)

@@ -8,7 +8,7 @@ from typing import NoReturn
 
 from launcher import ROOT, WRONG_INPUT
 
-NEED_PACKAGES = {"build", "run", "explain", "test", "bench", "draw"}
+NEED_PACKAGES = {"build", "run", "explain", "test", "bench", "draw", "conform"}
 
 
 class Parser(argparse.ArgumentParser):
@@ -29,6 +29,16 @@ def positive(text: str) -> int:
 positive.__name__ = "positive number"
 
 
+def seconds(text: str) -> float:
+    number = float(text)
+    if not 0 < number < float("inf"):
+        raise ValueError
+    return number
+
+
+seconds.__name__ = "number of seconds"
+
+
 def assignment(text: str) -> str:
     key, equals, _ = text.partition("=")
     if not equals or not key.strip():
@@ -43,6 +53,10 @@ def presets() -> list[str]:
 
 def add_scene(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", help="a scene file, or a folder of cases/ or examples/")
+    add_scene_options(parser)
+
+
+def add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--level", metavar="L", help="one of the scene's levels of resolution, e.g. quick")
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=assignment, dest="settings",
                         help="change one value of the scene, e.g. vehicle.speed=60 or ice.thickness='20 mm'")
@@ -72,6 +86,18 @@ def build_parser() -> argparse.ArgumentParser:
     bench = commands.add_parser("bench", help="measure the speed of the kernels")
     bench.add_argument("name", metavar="NAME", nargs="?", help="one bench (default: all)")
     bench.add_argument("--json", action="store_true", help="one line of JSON on standard output")
+
+    conform = commands.add_parser("conform", help="whether a solver follows docs/protocol.md",
+                                  usage="./polynya conform [options] -- COMMAND ...")
+    conform.add_argument("participant", metavar="COMMAND", nargs="+", help="the program and its first arguments")
+    conform.add_argument("--role", choices=("solid", "fluid"), default="solid", help="default: solid")
+    conform.add_argument("--name", choices=("structure", "ice", "fluid"), help="default: structure, or fluid")
+    conform.add_argument("--scene", metavar="SCENE", help="default: cases/vehicle_drop, cases/vehicle_in_water")
+    add_scene_options(conform)
+    conform.add_argument("--out", metavar="DIR", help="keep the run folders and logs of the conversations here")
+    conform.add_argument("--patience", metavar="SECONDS", type=seconds, default=60.0, help="for each answer; default: 60")
+    conform.add_argument("--slow", metavar="SECONDS", type=seconds, default=2.0,
+                         help="for which the coupler once says nothing; default: 2")
 
     draw = commands.add_parser("draw", help="draw the pictures of a run again")
     draw.add_argument("run", metavar="RUN", help="a run folder")

@@ -11,8 +11,8 @@ int play_python(const std::string& endpoint, const std::string& run) {
   // Python looks for its packages from argv[0]: a bare name would lead it to another python that is first on PATH.
   const int quiet = open("/dev/null", O_WRONLY);
   dup2(quiet, STDERR_FILENO);
-  execl("/usr/bin/python3", "/usr/bin/python3", POLYNYA_SOURCE_DIR "/examples/tetrahedron_solid.py", endpoint.c_str(),
-        run.c_str(), "vehicle", nullptr);
+  execl("/usr/bin/python3", "/usr/bin/python3", POLYNYA_SOURCE_DIR "/examples/tetrahedron_solid.py", "--scene", "none",
+        "--out", "none", "--connect", endpoint.c_str(), "--run", run.c_str(), "--name", "vehicle", nullptr);
   return 127;
 }
 
