@@ -67,7 +67,7 @@ struct Fluid {
   CutGeometry before, after;  ///< at the beginning and the end of the current step; between steps `after` is now
   Groups groups;              ///< of the last step
   std::vector<GroupState> group_states;  ///< at the beginning of the last step
-  std::vector<double> own_compression;   ///< by member of `groups`: density over the group's, less one
+  std::vector<double> own_compression;   ///< by member of `groups`: density over the group's at its height, less one
   std::array<Material, 2> material;
   std::array<std::vector<double>, 3> velocity;  ///< of nodes, m/s
   std::vector<Ambient> ambient;                 ///< by padded k

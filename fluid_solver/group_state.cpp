@@ -60,6 +60,13 @@ bool bears_differences(const GroupState& state) {
   return state.volume > 0 && state.content.mass[air] == 0 && state.point.bulk_modulus > 0;
 }
 
+/// How much more than its group a member is compressed by the weight of the fluid between them.
+double weight_compression(const Fluid& fluid, const GroupState& state, std::ptrdiff_t cell) {
+  if (!bears_differences(state)) return 0;
+  const double rho = (state.content.mass[0] + state.content.mass[1]) / state.volume;
+  return rho * fluid.setup.gravity * (state.height - height_of(fluid.grid, cell)) / state.point.bulk_modulus;
+}
+
 }  // namespace
 
 void evaluate_groups(Fluid& fluid) {
@@ -89,7 +96,8 @@ void evaluate_groups(Fluid& fluid) {
     const bool differs = bears_differences(state);
     double* compression = fluid.own_compression.data() + fluid.groups.first[g];
     for (const auto& [c, parent] : members_of(fluid.groups, g)) {
-      if (differs && fluid.before.volume[c] > 0) *compression = fluid.total_mass[c] / (rho * fluid.before.volume[c]) - 1.0;
+      if (differs && fluid.before.volume[c] > 0)
+        *compression = fluid.total_mass[c] / (rho * fluid.before.volume[c]) - 1.0 - weight_compression(fluid, state, c);
       const double own = state.point.bulk_modulus * *compression++;
       fluid.pressure[c] = filled ? state.point.pressure + rho * fluid.setup.gravity * (state.height - height_of(grid, c)) + own
                                  : state.volume > 0 ? fluid.setup.pressure_floor[water] : 0.0;
@@ -165,7 +173,7 @@ void set_group_donors(Fluid& fluid, double dt) {
 
 namespace {
 
-/// Shares of the group's mass that its members get: by volume, more where a member is compressed by itself. The emptier a
+/// Shares of the group's mass that its members get: by volume, more below, and where a member is compressed by itself. The emptier a
 /// cell under half full, the more of that is evened out: all of it in an empty cell, nothing in a half-full one, which
 /// would be a cell of its own. So cells join and leave groups without a jolt.
 std::vector<double> mass_shares(const Fluid& fluid, std::size_t g) {
@@ -175,7 +183,7 @@ std::vector<double> mass_shares(const Fluid& fluid, std::size_t g) {
   double sum = 0;
   for (const auto& [c, parent] : range) {
     const double volume = fluid.after.volume[c], kept = kept_share(fluid.grid, c, volume);
-    share.push_back(volume * (1.0 + kept * *compression++));
+    share.push_back(volume * (1.0 + weight_compression(fluid, fluid.group_states[g], c) + kept * *compression++));
     sum += share.back();
   }
   for (double& one : share) one /= sum;

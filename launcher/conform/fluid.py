@@ -13,7 +13,7 @@ from launcher.conform.wire import Breach, Findings
 SECTION = "5"
 SPEED = 0.05        # m/s of the box: 75 kPa of sound pressure in water
 SHARE_OF_STEP = 0.5
-AT_REST = 0.05      # largest share by which the pressure at rest may differ from density times gravity times depth
+AT_REST = 0.01      # largest share by which the pressure at rest may differ from density times gravity times depth
 
 
 class Fluid:

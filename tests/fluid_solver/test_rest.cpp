@@ -68,6 +68,26 @@ TEST(Rest, CutBodyAcrossTheWaterlineStaysAtRest) {
   EXPECT_NEAR(lift, exact, 0.02 * exact);
 }
 
+TEST(Rest, CellsThatShareAStateAboveEachOtherHaveThePressureOfTheirOwnDepth) {
+  Fluid fluid = basin();
+  // Leaves a fifth of a layer of cells free below the body, and a twentieth above it.
+  const Box box{{-0.001, -0.001, -0.0245}, {0.0073, 0.0091, -0.010125}};
+  const Overlap overlap = overlap_of(fluid.grid, box, {});
+  fill_hydrostatic(fluid, overlap, 0.0);
+  const double dt = 0.8 * stable_step(fluid);
+  for (const int steps : {0, 300}) {
+    for (int n = 0; n < steps; ++n) step(fluid, dt, overlap);
+    std::vector<double> value, gradient;
+    overlap_pressure(fluid, overlap, value, gradient);
+    for (std::size_t m = 0; m < overlap.cell.size(); ++m) {
+      if (overlap.wall_area[6 * m + 2] == 0) continue;
+      int i, j, k;
+      fluid.grid.position(fluid.grid.from_message(overlap.cell[m]), i, j, k);
+      EXPECT_NEAR(value[m], -1000.05 * 9.81 * fluid.grid.centre_z(k), 0.1) << "after " << steps << " steps";
+    }
+  }
+}
+
 TEST(Rest, MassAtTheStartIsDensityTimesFreeVolume) {
   Fluid fluid = basin();
   fluid.setup.gravity = 0;
