@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/compute/threads.hpp"
 #include "core/compute/timer.hpp"
 #include "core/contact/penalty_contact.hpp"
 #include "core/exchange/errors.hpp"
@@ -29,7 +30,6 @@ struct Run {
   const scene::Scene& scene;
   std::string folder;
   Conversation conversation;
-  results::ProcessReport report;
   compute::Stopwatch watch;
   TimeKeeper keeper;
   StepLimits limits;
@@ -107,22 +107,25 @@ void bound_lag(Run& run, const geometry::CutCells& cells) {
   run.limits.lag_limit = std::min(limit, run.slowest_answer);
 }
 
-/// Cuts the grid where the solids are now; every hundredth cut is checked against CGAL.
+/// Cuts the grid where the solids are now.
 const geometry::CutCells& cut_grid(Run& run) {
-  const auto lap = run.watch.lap("overlap");
-  const geometry::CutCells& cells = run.overlap->cut(run.conversation);
-  if (run.cuts++ % cuts_between_samples == 0) {
-    const auto check = run.watch.lap("overlap_check");
-    const double difference =
-        run.overlap->verify_sample(static_cast<std::uint64_t>(run.scene.run.seed + run.cuts), cells_in_sample);
-    if (difference > largest_sample_difference)
-      throw std::runtime_error("overlap: the packed cut differs from CGAL's exact cut by " +
-                               std::to_string(difference) + " of a cell at t = " + std::to_string(run.keeper.time));
-  }
-  return cells;
+  ++run.cuts;
+  return run.overlap->cut(run.conversation, run.watch);
+}
+
+/// Compares every hundredth cut with CGAL's.
+void check_cut(Run& run) {
+  if (run.cuts % cuts_between_samples != 1) return;
+  const auto lap = run.watch.lap("overlap_check");
+  const double difference =
+      run.overlap->verify_sample(static_cast<std::uint64_t>(run.scene.run.seed + run.cuts), cells_in_sample);
+  if (difference > largest_sample_difference)
+    throw std::runtime_error("overlap: the packed cut differs from CGAL's exact cut by " + std::to_string(difference) +
+                             " of a cell at t = " + std::to_string(run.keeper.time));
 }
 
 void begin(Run& run, const std::vector<std::string>& names) {
+  const auto lap = run.watch.lap("messages");
   receive_ready(run.conversation, names);
   run.limits.solid_factor = run.scene.run.step_factor;
   run.limits.fluid_factor = run.scene.run.fluid_step_factor;
@@ -131,6 +134,7 @@ void begin(Run& run, const std::vector<std::string>& names) {
     FluidSide& fluid = *run.conversation.fluid;
     run.overlap.emplace(fluid, run.scene.effect("debris_displacement"), run.scene.fluid->atmospheric_pressure);
     const geometry::CutCells& cells = cut_grid(run);
+    check_cut(run);
     spdlog::info("first cut: {} cells hold solid, {} loose edges, {} corrected faces", cells.cell.size(),
                  cells.loose_edges, cells.corrected_faces);
     exchange::Message message("begin");
@@ -152,6 +156,7 @@ void begin(Run& run, const std::vector<std::string>& names) {
   begin_solids(run.conversation, run.keeper.step);
 }
 
+/// The fluid computes meanwhile, where there is one.
 void find_contact(Run& run) {
   SolidSide* vehicle = run.conversation.find(Body::vehicle);
   SolidSide* ice = run.conversation.find(Body::ice);
@@ -173,21 +178,31 @@ void find_contact(Run& run) {
   run.monitor->note_contact(forces);
 }
 
-/// The fluid steps over the span that just ended; its loads act in the next one.
-void exchange_with_fluid(Run& run, bool finish, long frame) {
-  FluidSide& fluid = *run.conversation.fluid;
+/// Lets the fluid step over the span that just ended.
+void send_span(Run& run, long frame) {
   const geometry::CutCells& cells = cut_grid(run);
-  const double length = run.keeper.time - run.keeper.span_start;
+  const auto lap = run.watch.lap("messages");
   exchange::Message message("span");
   message.header["span"] = run.keeper.span;
   message.header["time0"] = run.keeper.span_start;
   message.header["time1"] = run.keeper.time;
-  message.header["finish"] = finish;
+  message.header["finish"] = !run.end.empty();
   message.header["frame"] = frame;
   add_overlap(message, cells);
-  run.conversation.hub.send(fluid.name, std::move(message));
+  run.conversation.hub.send(run.conversation.fluid->name, std::move(message));
+}
+
+exchange::Message receive_pressure(Run& run) {
+  const auto lap = run.watch.lap("messages");
+  return run.conversation.hub.receive(run.conversation.fluid->name, "pressure");
+}
+
+/// What the fluid answers to the span that just ended; its loads act in the next one.
+void take_fluid_loads(Run& run, const exchange::Message& answer) {
   const auto lap = run.watch.lap("fluid_loads");
-  const exchange::Message answer = run.conversation.hub.receive(fluid.name, "pressure");
+  FluidSide& fluid = *run.conversation.fluid;
+  const geometry::CutCells& cells = run.overlap->now();
+  const double length = run.keeper.time - run.keeper.span_start;
   fluid.stable_step = answer.header.at("stable_step").get<double>();
   fluid.account.update(answer);
   for (SolidSide& side : run.conversation.solids) {
@@ -253,43 +268,71 @@ void write_ledger(Run& run, double acting_time) {
   run.ledger_file.append(run.keeper.time, run.keeper.window, acting_time, run.ledger, held);
 }
 
-/// One window of docs/coupling.md: positions, contact, at the end of a span the fluid, loads.
-void advance_window(Run& run) {
+/// Positions at the end of the window, and what follows from the motion over it.
+void take_surfaces(Run& run) {
   {
-    const auto lap = run.watch.lap("surfaces");
+    const auto lap = run.watch.lap("messages");
     receive_surfaces(run.conversation, run.keeper.window);
   }
+  const auto lap = run.watch.lap("ledger");
   run.keeper.time += run.keeper.step;
-  for (const SolidSide& side : run.conversation.solids) {
+  for (SolidSide& side : run.conversation.solids) {
     run.work[static_cast<int>(side.body)].settle(side, run.ledger);
     run.topology_changed = run.topology_changed || side.topology_changed;
+    side.add_to_mean(run.keeper.step);
   }
-  for (SolidSide& side : run.conversation.solids) side.add_to_mean(run.keeper.step);
-  find_contact(run);
+}
 
-  long frame = -1;
-  if (--run.keeper.windows_left <= 0) {
-    run.end = end_reason(run.scene, run.keeper.time, run.monitor->nose(), run.monitor->speed());
-    const bool finish = !run.end.empty();
-    if (run.keeper.time >= run.next_frame_time || finish) {
-      frame = run.frame++;
-      run.next_frame_time += run.scene.run.frame_interval;
-    }
-    if (run.conversation.fluid) exchange_with_fluid(run, finish, frame);
+/// Whether the run ends with this span; the number of the frame to write now, -1 for none.
+long end_or_frame(Run& run) {
+  run.end = end_reason(run.scene, run.keeper.time, run.monitor->nose(), run.monitor->speed());
+  if (run.keeper.time < run.next_frame_time && run.end.empty()) return -1;
+  run.next_frame_time += run.scene.run.frame_interval;
+  return run.frame++;
+}
+
+/// Hands out the loads of this window and the length of the next one.
+void give_loads(Run& run, long frame) {
+  const double next = next_step(run.limits, run.planned_step, run.keeper.step);
+  const double acting_time = run.keeper.acting_time(next);
+  {
+    const auto lap = run.watch.lap("ledger");
+    hand_on_fluid_impulse(run, acting_time);
+    write_ledger(run, acting_time);
+    for (SolidSide& side : run.conversation.solids) run.work[static_cast<int>(side.body)].remember(side, acting_time);
+  }
+  const auto lap = run.watch.lap("messages");
+  send_loads(run.conversation, run.keeper.window, next, !run.end.empty(), frame);
+  ++run.keeper.window;
+  run.keeper.step = next;
+}
+
+/// One window of docs/coupling.md: positions, at the end of a span the fluid, contact, loads.
+void advance_window(Run& run) {
+  take_surfaces(run);
+  const bool span_ends = --run.keeper.windows_left <= 0;
+  const bool fluid_steps = span_ends && run.conversation.fluid;
+  const long frame = span_ends ? end_or_frame(run) : -1;
+  if (fluid_steps) send_span(run, frame);
+  find_contact(run);
+  if (fluid_steps) {
+    check_cut(run);
+    take_fluid_loads(run, receive_pressure(run));
+  }
+  if (span_ends) {
+    const auto lap = run.watch.lap("ledger");
     ++run.keeper.span;
     run.monitor->append_row(run.keeper, run.conversation, run.ledger, run.planned_step);
     plan_next_span(run);
   } else {
     refresh_limits(run);
   }
-  const double next = next_step(run.limits, run.planned_step, run.keeper.step);
-  const double acting_time = run.keeper.acting_time(next);
-  hand_on_fluid_impulse(run, acting_time);
-  write_ledger(run, acting_time);
-  for (SolidSide& side : run.conversation.solids) run.work[static_cast<int>(side.body)].remember(side, acting_time);
-  send_loads(run.conversation, run.keeper.window, next, !run.end.empty(), frame);
-  ++run.keeper.window;
-  run.keeper.step = next;
+  give_loads(run, frame);
+}
+
+std::vector<std::pair<std::string, nlohmann::json>> part(Run& run) {
+  const auto lap = run.watch.lap("messages");
+  return say_goodbye(run.conversation);
 }
 
 void write_reports(Run& run, const std::vector<std::pair<std::string, nlohmann::json>>& last_words) {
@@ -298,14 +341,13 @@ void write_reports(Run& run, const std::vector<std::pair<std::string, nlohmann::
   summary["overlap_cuts"] = run.cuts;
   for (const auto& [name, words] : last_words) summary["participants"][name] = words;
   std::ofstream(run.folder + "/coupler_summary.json") << summary.dump(1) << '\n';
-  for (const SolidSide& side : run.conversation.solids)
-    run.report.seconds["waiting_" + side.name] = run.conversation.hub.waiting_seconds(side.name);
-  if (run.conversation.fluid)
-    run.report.seconds["waiting_fluid"] = run.conversation.hub.waiting_seconds(run.conversation.fluid->name);
-  for (const auto& [heading, seconds] : run.watch.seconds()) run.report.seconds[heading] = seconds;
-  run.report.counts["windows"] = static_cast<double>(run.keeper.window);
-  run.report.counts["spans"] = static_cast<double>(run.keeper.span);
-  run.report.write(run.folder, "coupler");
+  results::ProcessReport report;
+  for (const auto& [name, words] : last_words) report.waits[name] = run.conversation.hub.waits(name).intervals();
+  report.set_headings(run.watch.seconds(), run.watch.cpu_seconds());
+  report.threads = compute::threads();
+  report.counts["windows"] = static_cast<double>(run.keeper.window);
+  report.counts["spans"] = static_cast<double>(run.keeper.span);
+  report.write(run.folder, "coupler");
 }
 
 std::vector<std::string> expected_participants(const scene::Scene& scene) {
@@ -327,8 +369,7 @@ void run_coupled(const scene::Scene& scene, const std::string& run_folder, const
     Run run(scene, run_folder, hub);
     begin(run, names);
     while (run.end.empty()) advance_window(run);
-    const auto last_words = say_goodbye(run.conversation);
-    write_reports(run, last_words);
+    write_reports(run, part(run));
     spdlog::info("end: {} at t = {:.6e} s after {} windows and {} spans", run.end, run.keeper.time, run.keeper.window,
                  run.keeper.span);
   } catch (const std::exception& error) {

@@ -16,7 +16,8 @@ std::vector<geometry::BodySurface> OverlapExchange::Cut::views() const {
   return bodies;
 }
 
-const geometry::CutCells& OverlapExchange::cut(const Conversation& conversation) {
+const geometry::CutCells& OverlapExchange::cut(const Conversation& conversation, compute::Stopwatch& watch) {
+  const auto lap = watch.lap("overlap");
   std::swap(before_, now_);
   now_.surfaces.resize(conversation.solids.size());
   for (std::size_t s = 0; s < conversation.solids.size(); ++s) {
@@ -30,6 +31,7 @@ const geometry::CutCells& OverlapExchange::cut(const Conversation& conversation)
   }
   cutter_.cut(now_.views(), now_.cells);
   if (debris_displaces_fluid_) {
+    const auto inner = watch.lap("debris_displacement");
     std::vector<double> positions, volumes;
     for (const SolidSide& side : conversation.solids)
       for (std::size_t v = 0; v < side.vertices(); ++v) {

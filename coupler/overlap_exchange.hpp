@@ -1,4 +1,5 @@
 #pragma once
+#include "core/compute/timer.hpp"
 #include "coupler/conversation.hpp"
 #include "coupler/ledger.hpp"
 
@@ -13,8 +14,9 @@ class OverlapExchange {
  public:
   OverlapExchange(const FluidSide& fluid, bool debris_displaces_fluid, double atmospheric_pressure);
 
-  /// Cuts the grid by the solids where they are now and remembers the cut before.
-  const geometry::CutCells& cut(const Conversation& conversation);
+  /// Cuts the grid by the solids where they are now and remembers the cut before. The watch's headings "overlap" and
+  /// "debris_displacement" take the time.
+  const geometry::CutCells& cut(const Conversation& conversation, compute::Stopwatch& watch);
 
   /// Adds the impulses of a span of length `span` (s) to the solids' outstanding fluid impulses and to the ledger.
   /// `at_start` belongs to the cut before, `at_end` to the last one. Surfaces may have lost vertices in between.
@@ -29,6 +31,7 @@ class OverlapExchange {
   void set_impedance(Conversation& conversation, std::span<const double> impedance) const;
 
   const geometry::CutCells& before() const { return before_.cells; }
+  const geometry::CutCells& now() const { return now_.cells; }
 
   /// Recuts a seeded sample of cells by CGAL's exact kernel. Returns the largest difference relative to the cell's
   /// volume.

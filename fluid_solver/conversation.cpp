@@ -39,9 +39,12 @@ void add_pressure(exchange::Message& message, const Fluid& fluid, const Overlap&
   message.add<double>(prefix + "gradient_z", {rows(gradient.size())}, gradient);
 }
 
-exchange::Message make_pressure(const Fluid& fluid, const Overlap& overlap) {
+exchange::Message make_pressure(Fluid& fluid, const Overlap& overlap) {
   exchange::Message message("pressure");
-  message.header["stable_step"] = stable_step(fluid);
+  {
+    const auto lap = fluid.watch.lap("account");
+    message.header["stable_step"] = stable_step(fluid);
+  }
   add_pressure(message, fluid, overlap, "pressure.");
   const auto values = account_values(fluid.account);
   message.add<double>("account", {rows(values.size())}, values);
@@ -100,15 +103,31 @@ Overlap read_overlap(const exchange::Message& message) {
 
 void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant& coupler, Output& output) {
   fill_hydrostatic(fluid, {}, scene.fluid->waterline);
-  coupler.send(make_ready(fluid));
-  Overlap overlap = read_overlap(coupler.receive("begin"));
-  start(scene, fluid, overlap);
-  coupler.send(make_pressure(fluid, overlap));
+  Overlap overlap;
+  {
+    const auto lap = fluid.watch.lap("messages");
+    coupler.send(make_ready(fluid));
+    overlap = read_overlap(coupler.receive("begin"));
+  }
+  {
+    const auto lap = fluid.watch.lap("start");
+    start(scene, fluid, overlap);
+  }
+  {
+    const auto lap = fluid.watch.lap("messages");
+    coupler.send(make_pressure(fluid, overlap));
+  }
   for (;;) {
-    const exchange::Message span = coupler.receive("span");
-    Overlap next = read_overlap(span);
+    exchange::Message span;
+    Overlap next;
+    {
+      const auto lap = fluid.watch.lap("messages");
+      span = coupler.receive("span");
+      next = read_overlap(span);
+    }
     const double dt = positive_span(span, fluid.time);
     if (fluid.steps == 0 && scene.fluid->start == "potential_flow") {
+      const auto lap = fluid.watch.lap("start");
       const int iterations = adapt_potential_flow(fluid, overlap, next, scene.fluid->waterline);
       spdlog::info("potential flow: {} more iterations for the first step", iterations);
     }
@@ -119,18 +138,22 @@ void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant&
       output.write_frame(fluid, output.frames());  // what it looked like
       throw;
     }
-    exchange::Message answer = make_pressure(fluid, next);
-    answer.header["span"] = span.header.value("span", 0L);
-    add_pressure(answer, fluid, overlap, "pressure.previous_");
-    add_impulse_and_impedance(answer, fluid);
-    coupler.send(std::move(answer));
-    overlap = std::move(next);
+    {
+      const auto lap = fluid.watch.lap("messages");
+      exchange::Message answer = make_pressure(fluid, next);
+      answer.header["span"] = span.header.value("span", 0L);
+      add_pressure(answer, fluid, overlap, "pressure.previous_");
+      add_impulse_and_impedance(answer, fluid);
+      coupler.send(std::move(answer));
+      overlap = std::move(next);
+    }
     output.record(fluid, dt);
     if (const int frame = span.header.value("frame", -1); frame >= 0) output.write_frame(fluid, frame);
     if (span.header.value("finish", false)) break;
   }
   exchange::Message finished("finished");
   finished.header.update(output.summary(fluid));
+  const auto lap = fluid.watch.lap("messages");
   coupler.send(finished);
   coupler.receive("bye");
   spdlog::info("finished: {}", output.summary(fluid).dump());

@@ -63,16 +63,17 @@ void run(const Options& options, const scene::Scene& scene, fluid::Fluid& built)
     try {
       const double error = fluid::run_tube(scene, built, output);
       if (error >= 0) spdlog::info("mean error of the density: {:.4f} of its mean", error);
+      output.write_summary(built, error);
     } catch (...) {
-      output.close(built, 0);
+      output.close(built, {});
       throw;
     }
-    output.close(built, 0);
+    output.close(built, {});
     spdlog::info("finished: {}", output.summary(built).dump());
     return;
   }
   exchange::Participant coupler({options.endpoint, options.run, options.name});
-  const auto close = [&] { output.close(built, coupler.waiting_seconds()); };
+  const auto close = [&] { output.close(built, coupler.waits().intervals()); };
   try {
     fluid::run_coupled(scene, built, coupler, output);
     close();

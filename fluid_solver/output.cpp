@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/compute/threads.hpp"
+#include "core/results/durable_file.hpp"
+
 namespace polynya::fluid {
 namespace {
 
@@ -111,23 +114,32 @@ void Output::record(const Fluid& fluid, double step) {
   if (fluid.time >= next_row_) write_row(fluid);
 }
 
-void Output::write_frame(const Fluid& fluid, int number) {
-  const auto from = std::chrono::steady_clock::now();
+void Output::write_frame(Fluid& fluid, int number) {
+  const auto lap = fluid.watch.lap("frames");
   if (cells_.types.empty()) cells_ = make_cells(fluid.grid);
   add_fields(fluid, cells_);
   frames_.write(number, cells_, fluid.time);
-  frame_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
 }
 
-void Output::close(const Fluid& fluid, double waiting_seconds) {
+void Output::close(const Fluid& fluid, const results::Waits& waits) {
   if (fluid.time > last_row_) write_row(fluid);
-  report_.waiting_time = waiting_seconds;
-  report_.seconds = fluid.watch.seconds();
-  report_.seconds["frames"] = frame_seconds_;
+  if (!waits.empty()) report_.waits["coupler"] = waits;
+  report_.set_headings(fluid.watch.seconds(), fluid.watch.cpu_seconds());
+  report_.threads = compute::threads();
   report_.counts["steps"] = static_cast<double>(fluid.steps);
   report_.counts["cells"] = static_cast<double>(fluid.grid.cells());
   report_.counts["frames"] = static_cast<double>(frames_.count());
   report_.write(folder_, name_);
+}
+
+void Output::write_summary(const Fluid& fluid, double density_error) const {
+  nlohmann::json found = summary(fluid);
+  found["end_reason"] = "time";
+  found["end_time"] = fluid.time;
+  const double energy = first_.kinetic + first_.internal;
+  found["energy_error"] = energy > 0 ? std::abs(fluid.account.energy_sum() - first_.energy_sum()) / energy : 0.0;
+  if (density_error >= 0) found["density_error"] = density_error;
+  results::replace_text(folder_ + "/" + name_ + "_summary.json", found.dump(1) + "\n");
 }
 
 nlohmann::json Output::summary(const Fluid& fluid) const {

@@ -20,8 +20,11 @@ class Output {
   /// Remembers the state that errors of mass and energy are counted from.
   void start(const Fluid& fluid);
   void record(const Fluid& fluid, double step);
-  void write_frame(const Fluid& fluid, int number);
-  void close(const Fluid& fluid, double waiting_seconds);
+  void write_frame(Fluid& fluid, int number);
+  /// Last row and the report of the process, which was blocked in these waits.
+  void close(const Fluid& fluid, const results::Waits& waits);
+  /// RUN/NAME_summary.json, of a run without a coupler. density_error: see run_tube.
+  void write_summary(const Fluid& fluid, double density_error) const;
   nlohmann::json summary(const Fluid& fluid) const;
   int frames() const { return static_cast<int>(frames_.count()); }
   const std::string& folder() const { return folder_; }
@@ -33,7 +36,7 @@ class Output {
   results::ProcessReport report_;
   results::FrameSeries frames_;
   results::TimeSeries series_;
-  double row_interval_, next_row_ = 0, step_ = 0, smallest_step_ = 1e300, frame_seconds_ = 0, last_row_ = -1;
+  double row_interval_, next_row_ = 0, step_ = 0, smallest_step_ = 1e300, last_row_ = -1;
   double vehicle_volume_ = 0;
   Account first_;
   results::UnstructuredFields cells_;  ///< points and cells, the same in every frame

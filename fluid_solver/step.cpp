@@ -31,7 +31,7 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     apply_to_cells(fluid, correction);
   }
   {
-    const auto lap = fluid.watch.lap("equation of state");
+    const auto lap = fluid.watch.lap("equation_of_state");
     evaluate_cells(fluid, fluid.before.volume);
     evaluate_groups(fluid);
   }
@@ -41,25 +41,40 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     face_rates(fluid, fluid.velocity, fluid.face_rate);
     predict_pressure(fluid, dt);
     predict_group_pressure(fluid, dt);
-    set_boundary_pressure(fluid);
-    hourglass_force(fluid);
+    {
+      const auto inner = fluid.watch.lap("boundaries");
+      set_boundary_pressure(fluid);
+    }
+    {
+      const auto inner = fluid.watch.lap("hourglass");
+      hourglass_force(fluid);
+    }
     accelerate_nodes(fluid, dt);
     mean_face_rates(fluid);
     advance_far_field(fluid, dt);
     work_and_donors(fluid, dt);
     set_group_donors(fluid, dt);
     book_walls(fluid, dt, walls, correction);
-    book_boundary(fluid, dt, walls);
+    {
+      const auto inner = fluid.watch.lap("boundaries");
+      book_boundary(fluid, dt, walls);
+    }
     kinetic_before_remap = kinetic_energy(fluid, fluid.next_velocity);
   }
   {
     const auto lap = fluid.watch.lap("remap");
     apply_to_faces(fluid, correction, dt);
     remap_cells(fluid, dt);
-    book_boundary_flow(fluid, dt);
+    {
+      const auto inner = fluid.watch.lap("boundaries");
+      book_boundary_flow(fluid, dt);
+    }
     mix_groups(fluid);
-    copy_face_mass_to_ghosts(fluid);
-    copy_velocity_to_ghosts(fluid);
+    {
+      const auto inner = fluid.watch.lap("boundaries");
+      copy_face_mass_to_ghosts(fluid);
+      copy_velocity_to_ghosts(fluid);
+    }
     remap_momentum(fluid);
   }
   {

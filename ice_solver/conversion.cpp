@@ -74,6 +74,7 @@ void convert_elements(IceBody& ice, std::span<const std::int32_t> elements) {
 }
 
 std::size_t convert_failed_elements(IceBody& ice) {
+  const auto lap = ice.watch.lap("conversion");
   ice.topology_changed = false;
   if (!ice.options.conversion) return 0;
   const auto strained = continuum::elements_above_strain(ice.solid, ice.options.critical_strain);

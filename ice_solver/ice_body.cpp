@@ -58,6 +58,7 @@ IceBody make_ice(const IceOptions& options) {
 }
 
 void advance_positions(IceBody& ice, double dt) {
+  const auto lap = ice.watch.lap("positions");
   continuum::advance_positions(ice.solid, dt);
   Points& points = ice.particles.points;
   compute::for_chunks(points.position.size(), 4096, [&](std::size_t begin, std::size_t end) {
@@ -70,7 +71,11 @@ void advance_positions(IceBody& ice, double dt) {
 }
 
 void internal_forces(IceBody& ice, double dt) {
-  continuum::internal_forces(ice.solid, dt);
+  {
+    const auto lap = ice.watch.lap("elements");
+    continuum::internal_forces(ice.solid, dt);
+  }
+  const auto lap = ice.watch.lap("particles");
   std::fill(ice.pair_force.begin(), ice.pair_force.end(), 0.0);
   Particles& particles = ice.particles;
   if (particles.count() == 0) return;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/compute/timer.hpp"
 #include "core/continuum/explicit_solid.hpp"
 #include "ice_solver/background.hpp"
 #include "ice_solver/neighbour_list.hpp"
@@ -79,6 +80,7 @@ struct IceBody {
   std::vector<double> pair_force, nodal_force;  ///< [nodes][3], N
   IceBooks books;
   bool topology_changed = false;  ///< by the last convert_failed_elements
+  compute::Stopwatch watch;
 };
 
 /// A plate at rest. Throws std::invalid_argument on bad grid lines.

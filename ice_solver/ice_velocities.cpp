@@ -142,6 +142,7 @@ void book_momentum(IceBody& ice, double dt_previous, double dt_next) {
 
 void advance_velocities(IceBody& ice, std::span<const double> node_loads, std::span<const double> particle_loads,
                         double dt_previous, double dt_next) {
+  const auto lap = ice.watch.lap("velocities");
   collect_nodal_force(ice, node_loads);
   const Powers closing = powers(ice, particle_loads);
   continuum::advance_velocities(ice.solid, ice.nodal_force, dt_previous, dt_next);

@@ -8,7 +8,9 @@
 #include <memory>
 #include <optional>
 
+#include "core/compute/threads.hpp"
 #include "core/exchange/environment.hpp"
+#include "core/results/durable_file.hpp"
 #include "core/results/process_report.hpp"
 #include "ice_solver/run.hpp"
 #include "ice_solver/scene_options.hpp"
@@ -38,10 +40,11 @@ void log_law(const continuum::Law& law, const std::string& card) {
                  1e-6 * continuum::unconfined_compressive_strength(*brittle, rate), rate);
 }
 
-void write_report(const Options& options, const ice::IceRun& run, results::ProcessReport& report,
-                  const exchange::Participant* participant) {
-  if (participant) report.waiting_time = participant->waiting_seconds();
-  report.seconds = run.watch.seconds();
+void write_report(const Options& options, const ice::IceRun& run, const exchange::Participant* participant) {
+  results::ProcessReport report;
+  if (participant) report.waits["coupler"] = participant->waits().intervals();
+  report.set_headings(run.ice.watch.seconds(), run.ice.watch.cpu_seconds());
+  report.threads = compute::threads();
   report.counts = {{"steps", static_cast<double>(run.steps)},
                    {"elements", static_cast<double>(run.ice.solid.element_count())},
                    {"particles", static_cast<double>(run.ice.particles.count())},
@@ -50,12 +53,12 @@ void write_report(const Options& options, const ice::IceRun& run, results::Proce
 }
 
 /// Everything after the input was found good. Returns the exit code.
-int work(const Options& options, ice::IceRun& run, results::ProcessReport& report) {
+int work(const Options& options, ice::IceRun& run) {
   std::optional<exchange::Participant> participant;
   int code = 0;
   try {
     if (options.endpoint.empty()) {
-      ice::run_alone(run);
+      results::replace_text(options.out + "/" + options.name + "_summary.json", ice::run_alone(run).dump(1) + "\n");
     } else {
       participant.emplace(exchange::Participant::Options{options.endpoint, options.run, options.name});
       ice::run_coupled(run, *participant);
@@ -70,7 +73,7 @@ int work(const Options& options, ice::IceRun& run, results::ProcessReport& repor
     if (participant) participant->fail(error.what());
     code = 1;
   }
-  write_report(options, run, report, participant ? &*participant : nullptr);
+  write_report(options, run, participant ? &*participant : nullptr);
   return code;
 }
 
@@ -78,7 +81,6 @@ int work(const Options& options, ice::IceRun& run, results::ProcessReport& repor
 
 int main(int argc, char** argv) {
   exchange::die_with_parent();
-  results::ProcessReport report;
   Options options;
   CLI::App app{"The ice: finite elements that become particles. Alone, or with --connect as a participant of a coupled run."};
   app.add_option("--scene", options.scene, "resolved scene (RUN/scene.json)")->required();
@@ -107,5 +109,5 @@ int main(int argc, char** argv) {
   }
   spdlog::info("{} elements, {} nodes, stable step {:.3e} s", run.ice.solid.element_count(), run.ice.solid.node_count(),
                ice::stable_step(run.ice));
-  return work(options, run, report);
+  return work(options, run);
 }

@@ -2,7 +2,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/compute/timer.hpp"
 #include "core/exchange/participant.hpp"
 #include "core/scene/scene.hpp"
 #include "ice_solver/ice_body.hpp"
@@ -14,7 +13,6 @@ struct IceRun {
   scene::Scene scene;
   std::string folder;
   IceBody ice;
-  compute::Stopwatch watch;
   long steps = 0;
   double smallest_step = 1e300;  ///< s
 };
@@ -23,8 +21,8 @@ struct IceRun {
 void run_coupled(IceRun& run, exchange::Participant& participant);
 
 /// Without partners until scene.run.end_time: bending between rollers, or the plate left to itself. Writes
-/// RUN/series/ice.csv.
-void run_alone(IceRun& run);
+/// RUN/series/ice.csv and returns what belongs in the run's summary.
+nlohmann::json run_alone(IceRun& run);
 
 /// What the ice has to say at the end; masses and energies are those of the full plate.
 nlohmann::json last_words(const IceRun& run);

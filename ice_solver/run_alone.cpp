@@ -1,6 +1,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/results/time_series.hpp"
@@ -47,9 +48,21 @@ std::optional<BendingRig> rig_of(IceRun& run) {
   return rig;
 }
 
+/// The error of energy relative to all that is stored and dissipated.
+nlohmann::json findings(const IceRun& run, const std::optional<BendingRig>& rig, double peak_load) {
+  const Account a = account_of(run.ice);
+  const double there = a.kinetic + a.internal + a.hourglass + a.viscous + a.conversion_heat + a.boundary_flux;
+  nlohmann::json found = last_words(run);
+  found["end_reason"] = "time";
+  found["end_time"] = run.ice.solid.time;
+  found["energy_error"] = there > 0 ? std::abs(a.balance()) / there : 0.0;
+  if (rig) found.update({{"peak_load", peak_load}, {"deflection", rig->deflection}, {"most_damage", most_damage(run.ice)}});
+  return found;
+}
+
 }  // namespace
 
-void run_alone(IceRun& run) {
+nlohmann::json run_alone(IceRun& run) {
   IceBody& ice = run.ice;
   const auto& settings = run.scene.run;
   const double factor = (ice.options.planes.x ? 2.0 : 1.0) * (ice.options.planes.y ? 2.0 : 1.0);
@@ -58,18 +71,20 @@ void run_alone(IceRun& run) {
   IceFrames frames(run.folder);
   const double interval = settings.frame_interval > 0 ? settings.frame_interval : settings.end_time;
   int frame = 0, row = 0;
+  double peak_load = 0;
 
   double dt = settings.step_factor * stable_step(ice);
   internal_forces(ice, 0);
   advance_velocities(ice, {}, {}, 0, dt);
   while (true) {
     const bool last = ice.solid.time >= settings.end_time;
+    if (rig) peak_load = std::max(peak_load, roller_load(*rig, ice));
     if (last || ice.solid.time >= row * interval / rows_per_frame) {
       append_row(series, run, rig, factor, dt);
       row = static_cast<int>(ice.solid.time * rows_per_frame / interval) + 1;
     }
     if (last || ice.solid.time >= frame * interval) {
-      const auto lap = run.watch.lap("frames");
+      const auto lap = ice.watch.lap("frames");
       frames.write(frame, ice);
       frame = static_cast<int>(ice.solid.time / interval) + 1;
     }
@@ -77,16 +92,14 @@ void run_alone(IceRun& run) {
     convert_failed_elements(ice);
     if (rig) move_rollers(*rig, ice, ice.solid.time, dt);
     advance_positions(ice, dt);
-    {
-      const auto lap = run.watch.lap("internal_forces");
-      internal_forces(ice, dt);
-    }
+    internal_forces(ice, dt);
     const double next = std::min(settings.step_factor * stable_step(ice), 1.1 * dt);
     advance_velocities(ice, {}, {}, dt, next);
     run.smallest_step = std::min(run.smallest_step, dt);
     ++run.steps;
     dt = next;
   }
+  return findings(run, rig, peak_load);
 }
 
 }  // namespace polynya::ice

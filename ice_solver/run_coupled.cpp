@@ -22,32 +22,32 @@ void add_topology(Message& message, const IceSurface& surface) {
   message.add<double>("surface.volume", {vertices}, surface.volumes);
 }
 
-void add_motion_and_account(Message& message, const IceBody& ice, const IceSurface& surface) {
+void add_motion_and_account(Message& message, IceBody& ice, const IceSurface& surface) {
   std::vector<double> positions, velocities;
   vertex_motion(ice, surface, positions, velocities);
   const auto vertices = static_cast<std::int64_t>(surface.vertex_count());
   message.add<double>("positions", {vertices, 3}, positions);
   message.add<double>("velocities", {vertices, 3}, velocities);
+  const auto lap = ice.watch.lap("account");
+  message.header["stable_step"] = stable_step(ice);
   const std::vector<double> values = account_values(account_of(ice));
   message.add<double>("account", {static_cast<std::int64_t>(values.size())}, values);
 }
 
-Message ready_message(const IceBody& ice, const IceSurface& surface) {
+Message ready_message(IceBody& ice, const IceSurface& surface) {
   Message ready("ready");
   ready.header["role"] = "solid";
   ready.header["body"] = "ice";
-  ready.header["stable_step"] = stable_step(ice);
   ready.header["account"] = account_names();
   add_topology(ready, surface);
   add_motion_and_account(ready, ice, surface);
   return ready;
 }
 
-Message surface_message(const IceBody& ice, const IceSurface& surface, long window) {
+Message surface_message(IceBody& ice, const IceSurface& surface, long window) {
   Message message("surface");
   message.header["window"] = window;
   message.header["time"] = ice.solid.time;
-  message.header["stable_step"] = stable_step(ice);
   message.header["topology_changed"] = ice.topology_changed;
   add_motion_and_account(message, ice, surface);
   if (ice.topology_changed) add_topology(message, surface);
@@ -56,27 +56,25 @@ Message surface_message(const IceBody& ice, const IceSurface& surface, long wind
 
 /// The half of a window after positions are known; returns the length of the next one, 0 to finish.
 double finish_window(IceRun& run, exchange::Participant& participant, IceSurface& surface, IceFrames& frames, double dt) {
-  {
-    const auto lap = run.watch.lap("internal_forces");
-    internal_forces(run.ice, dt);
-  }
-  const Message loads = participant.receive("loads");
-  const double next = loads.header.at("next_step").get<double>();
+  internal_forces(run.ice, dt);
+  Message loads;
   std::vector<double> node_loads, particle_loads;
-  distribute_loads(run.ice, surface, loads.view<std::int64_t>("load.vertices"), loads.view<double>("load.forces"),
-                   node_loads, particle_loads);
   {
-    const auto lap = run.watch.lap("velocities");
-    advance_velocities(run.ice, node_loads, particle_loads, dt, next);
+    const auto lap = run.ice.watch.lap("messages");
+    loads = participant.receive("loads");
+    distribute_loads(run.ice, surface, loads.view<std::int64_t>("load.vertices"), loads.view<double>("load.forces"),
+                     node_loads, particle_loads);
   }
+  const double next = loads.header.at("next_step").get<double>();
+  advance_velocities(run.ice, node_loads, particle_loads, dt, next);
   const int frame = loads.header.at("frame").get<int>();
   if (frame >= 0) {
-    const auto lap = run.watch.lap("frames");
+    const auto lap = run.ice.watch.lap("frames");
     frames.write(frame, run.ice);
   }
-  const auto lap = run.watch.lap("conversion");
   const std::size_t converted = convert_failed_elements(run.ice);
   if (converted > 0) {
+    const auto lap = run.ice.watch.lap("conversion");
     if (run.ice.particles.count() == converted) spdlog::info("first particles at t = {:.6e} s", run.ice.solid.time);
     surface = surface_of(run.ice);
   }
@@ -89,15 +87,19 @@ void run_coupled(IceRun& run, exchange::Participant& participant) {
   IceBody& ice = run.ice;
   IceSurface surface = surface_of(ice);
   IceFrames frames(run.folder);
-  participant.send(ready_message(ice, surface));
-  double dt = participant.receive("begin").header.at("step").get<double>();
+  double dt = 0;
+  {
+    const auto lap = ice.watch.lap("messages");
+    participant.send(ready_message(ice, surface));
+    dt = participant.receive("begin").header.at("step").get<double>();
+  }
   internal_forces(ice, 0);
   advance_velocities(ice, {}, {}, 0, dt);
   spdlog::info("begins with a step of {:.3e} s", dt);
   for (long window = 0; dt > 0; ++window) {
     advance_positions(ice, dt);
     {
-      const auto lap = run.watch.lap("messages");
+      const auto lap = ice.watch.lap("messages");
       participant.send(surface_message(ice, surface, window));
     }
     run.smallest_step = std::min(run.smallest_step, dt);
@@ -106,6 +108,7 @@ void run_coupled(IceRun& run, exchange::Participant& participant) {
   }
   Message finished("finished");
   finished.header.update(last_words(run));
+  const auto lap = ice.watch.lap("messages");
   participant.send(finished);
   participant.receive("bye");
 }

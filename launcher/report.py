@@ -20,7 +20,7 @@ MOTION = (("initial speed", "initial_speed", "m/s"), ("residual speed", "residua
 HEALTH = (("energy error", "energy_error", "%"), ("momentum error", "momentum_error", "%"),
           ("mass error", "mass_error", "%"), ("leak fraction", "leak_fraction", "%"), ("steps", "steps", "n"),
           ("fluid cells", "cells", "n"), ("elements", "elements", "n"), ("converted", "converted_elements", "n"),
-          ("particles", "particles", "n"), ("wall time", "wall_time", "wall"))
+          ("particles", "particles", "n"), ("exchange", "exchange_share", "%"), ("wall time", "wall_time", "wall"))
 
 NOT_SHOWN = {"end_time", "filter_frequency", "shoulder_clear_speed", "windows", "spans", "overlap_cuts",
              "largest_energy_error", "largest_momentum_error", "deepest_contact", "peak_wall_pressure"}
@@ -74,11 +74,11 @@ def other_findings(summary: dict) -> Table:
 def process_table(processes: dict[str, dict]) -> Table:
     table = Table(box=box.SIMPLE_HEAD, padding=(0, 1), header_style="dim", pad_edge=False)
     table.add_column("process")
-    for heading in ("processor time", "waiting", "memory"):
+    for heading in ("wall time", "processor time", "waiting", "threads", "memory"):
         table.add_column(heading, justify="right")
     for name, report in processes.items():
-        table.add_row(name, units.duration(report.get("cpu_time")), units.duration(report.get("waiting_time")),
-                      units.memory(report.get("peak_memory")))
+        times = [units.duration(report.get(key)) for key in ("wall_time", "cpu_time", "waiting_time")]
+        table.add_row(name, *times, str(report.get("threads", "–")), units.memory(report.get("peak_memory")))
     return table
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy
 
-from launcher import definitions
+from launcher import critical_path, definitions, effect_times
 from launcher.run_folder import read_json, write_json
 from launcher.series import Series, read_series
 from launcher.supervise import Outcome
@@ -94,13 +94,13 @@ def process_reports(folder: Path, outcome: Outcome) -> dict[str, dict]:
 
 
 def effect_reports(scene: dict, found: dict, processes: dict[str, dict]) -> dict[str, dict]:
-    """Per effect its final state, the reason, and the time spent under its name in all processes."""
+    """Per effect its final state, the reason, and the time it took in all processes."""
     reports = {}
     for name, effect in (scene.get("effects") or {}).items():
         latest = {**effect, **((found.get("effects") or {}).get(name) or {})}
-        times = [report["seconds"][name] for report in processes.values() if name in (report.get("seconds") or {})]
+        time, note = effect_times.time_of(name, bool(latest.get("active")), processes)
         reports[name] = {"state": "on" if latest.get("active") else "off", "requested": latest.get("requested"),
-                         "reason": latest.get("reason"), "time": sum(times) if times else None}
+                         "reason": latest.get("reason"), "time": time, **({"time_note": note} if note else {})}
     return reports
 
 
@@ -122,6 +122,7 @@ def merge(folder: Path, scene: dict, names: list[str], outcome: Outcome, wall_ti
         "filter_frequency": (scene.get("run") or {}).get("filter_frequency"),
         **measured(found, series, processes, bool(scene.get("ice"))),
         "wall_time": wall_time,
+        **(critical_path.summary(folder, processes) or {"exchange_share": None, "critical_path": None}),
         "processes": processes,
         "effects": effect_reports(scene, found, processes),
     }

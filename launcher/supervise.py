@@ -39,11 +39,21 @@ class Child:
     handle: int                               # pidfd: readable when the process has ended
     status: int | None = None                 # exit code, or minus the number of the signal
     order: int = -1                           # how many had ended before
+    peak_memory: int | None = None            # bytes, as seen while it ran
     usage: dict[str, float] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
         return self.plan.name
+
+    def note_memory(self) -> None:
+        """The largest resident size so far. What the system tells at the end counts the launcher before the start in."""
+        try:
+            status = Path(f"/proc/{self.popen.pid}/status").read_text(encoding="utf-8")
+        except OSError:
+            return
+        if peak := re.search(r"^VmHWM:\s+(\d+) kB", status, re.MULTILINE):
+            self.peak_memory = 1024 * int(peak[1])
 
     def reap(self, order: int) -> None:
         _, waited, usage = os.wait4(self.popen.pid, 0)
@@ -51,7 +61,7 @@ class Child:
         if self.status > 128 and self.plan.setting:  # a shell in front reports a signal in this way
             self.status = 128 - self.status
         self.order = order
-        self.usage = {"cpu_time": usage.ru_utime + usage.ru_stime, "peak_memory": usage.ru_maxrss * 1024}
+        self.usage = {"cpu_time": usage.ru_utime + usage.ru_stime, "peak_memory": self.peak_memory}
         os.close(self.handle)
 
     def send(self, number: signal.Signals) -> None:
@@ -182,6 +192,8 @@ class Supervisor:
         coupler_ended: float | None = None
         while running(self.children):
             wait(self.children, TICK)
+            for child in running(self.children):
+                child.note_memory()
             if self.interrupted is not None:
                 return f"interrupted by {signal_name(self.interrupted)}", FAILED
             if any(child.status for child in self.children):

@@ -86,29 +86,47 @@ double positive_step(const exchange::Message& message, const char* key) {
 void run_coupled(BuiltVehicle& vehicle, exchange::Participant& coupler, Output& output) {
   VehicleBody& body = *vehicle.body;
   Account account = body.account();
-  coupler.send(make_ready(vehicle, account));
-  const exchange::Message begin = coupler.receive("begin");
+  exchange::Message begin;
+  {
+    const auto lap = output.watch().lap("messages");
+    coupler.send(make_ready(vehicle, account));
+    begin = coupler.receive("begin");
+  }
   double time = begin.header.value("time", 0.0), dt = positive_step(begin, "step");
   std::vector<double> hull_force(3 * body.hull_vertices());
   body.internal_forces(0);
   body.finish_step({}, 0, dt);
   account = body.account();
 
+  compute::Stopwatch& watch = output.watch();
   for (long window = 0;; ++window) {
-    body.advance_positions(dt);
-    time += dt;
-    coupler.send(make_surface(window, time, body, account));
     {
-      const auto lap = output.watch().lap("internal_forces");
+      const auto lap = watch.lap("positions");
+      body.advance_positions(dt);
+      time += dt;
+    }
+    {
+      const auto lap = watch.lap("messages");
+      coupler.send(make_surface(window, time, body, account));
+    }
+    {
+      const auto lap = watch.lap("internal_forces");
       body.internal_forces(dt);
     }
-    const exchange::Message loads = coupler.receive("loads");
-    read_loads(loads, hull_force);
+    exchange::Message loads;
+    {
+      const auto lap = watch.lap("messages");
+      loads = coupler.receive("loads");
+      read_loads(loads, hull_force);
+    }
     const bool finish = loads.header.value("finish", false);
     const double next = finish ? loads.header.value("next_step", dt) : positive_step(loads, "next_step");
     {
-      const auto lap = output.watch().lap("finish_step");
+      const auto lap = watch.lap("velocities");
       body.finish_step(hull_force, dt, next);
+    }
+    {
+      const auto lap = watch.lap("account");
       account = body.account();
     }
     output.record(time, dt, account);
@@ -118,6 +136,7 @@ void run_coupled(BuiltVehicle& vehicle, exchange::Participant& coupler, Output& 
   }
   exchange::Message finished("finished");
   finished.header.update(output.summary());
+  const auto lap = watch.lap("messages");
   coupler.send(finished);
   coupler.receive("bye");
   spdlog::info("finished: {}", output.summary().dump());

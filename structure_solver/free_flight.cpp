@@ -23,13 +23,22 @@ void run_free_flight(BuiltVehicle& vehicle, const scene::Run& run, Output& outpu
   body.finish_step({}, 0, dt);
   for (long n = 1; n <= steps; ++n) {
     {
-      const auto lap = output.watch().lap("step");
+      const auto lap = output.watch().lap("positions");
       body.advance_positions(dt);
+    }
+    {
+      const auto lap = output.watch().lap("internal_forces");
       body.internal_forces(dt);
+    }
+    {
+      const auto lap = output.watch().lap("velocities");
       body.finish_step({}, dt, dt);
     }
     const double time = run.end_time * static_cast<double>(n) / static_cast<double>(steps);
-    output.record(time, dt, body.account());
+    {
+      const auto lap = output.watch().lap("account");
+      output.record(time, dt, body.account());
+    }
     if (time >= next_frame * (1 - 1e-12) || n == steps) {
       output.write_frame(frame++, time);
       next_frame += run.frame_interval;

@@ -61,23 +61,24 @@ void run(const Options& options, const scene::Scene& scene, structure::BuiltVehi
   structure::Output output(options.out, options.name, scene.run.end_time, vehicle);
   if (options.endpoint.empty()) {
     structure::run_free_flight(vehicle, scene.run, output);
-    output.close(0);
+    output.close({});
+    output.write_summary();
     spdlog::info("finished: {}", output.summary().dump());
     return;
   }
   exchange::Participant coupler({options.endpoint, options.run, options.name});
   try {
     structure::run_coupled(vehicle, coupler, output);
-    output.close(coupler.waiting_seconds());
+    output.close(coupler.waits().intervals());
   } catch (const exchange::Stopped&) {
-    output.close(coupler.waiting_seconds());
+    output.close(coupler.waits().intervals());
     throw;
   } catch (const exchange::CouplerLost&) {
-    output.close(coupler.waiting_seconds());
+    output.close(coupler.waits().intervals());
     throw;
   } catch (const std::exception& error) {
     coupler.fail(error.what());
-    output.close(coupler.waiting_seconds());
+    output.close(coupler.waits().intervals());
     throw;
   }
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "core/compute/threads.hpp"
+#include "core/results/durable_file.hpp"
+
 namespace polynya::structure {
 namespace {
 
@@ -76,15 +79,23 @@ void Output::write_frame(int number, double time) {
   frames_.write(number, unstructured(vehicle_.mesh.hexahedra, vehicle_.body->fields()), time);
 }
 
-void Output::close(double waiting_seconds) {
+void Output::close(const results::Waits& waits) {
   if (time_ > last_row_) write_row();
-  report_.waiting_time = waiting_seconds;
-  report_.seconds = watch_.seconds();
+  if (!waits.empty()) report_.waits["coupler"] = waits;
+  report_.set_headings(watch_.seconds(), watch_.cpu_seconds());
+  report_.threads = compute::threads();
   report_.counts["steps"] = static_cast<double>(steps_);
   report_.counts["elements"] = static_cast<double>(vehicle_.mesh.hexahedra.element_count());
   report_.counts["nodes"] = static_cast<double>(vehicle_.mesh.hexahedra.node_count());
   report_.counts["frames"] = static_cast<double>(frames_.count());
   report_.write(folder_, name_);
+}
+
+void Output::write_summary() const {
+  nlohmann::json found = summary();
+  found["end_reason"] = "time";
+  found["end_time"] = time_;
+  results::replace_text(folder_ + "/" + name_ + "_summary.json", found.dump(1) + "\n");
 }
 
 nlohmann::json Output::summary() const {

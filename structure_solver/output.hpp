@@ -20,11 +20,13 @@ class Output {
   /// Books one finished window; writes a row of the series when one is due.
   void record(double time, double step, const Account& account);
   void write_frame(int number, double time);
-  /// Last row and the report of the process.
-  void close(double waiting_seconds);
+  /// Last row and the report of the process, which was blocked in these waits.
+  void close(const results::Waits& waits);
 
   /// Figures for the `finished` message and the log.
   nlohmann::json summary() const;
+  /// RUN/NAME_summary.json, of a run without a coupler.
+  void write_summary() const;
   compute::Stopwatch& watch() { return watch_; }
 
  private:

@@ -27,7 +27,7 @@ struct Member {
   int connection = -1;
   long pid = 0;  ///< 0: on another host, or not told
   std::deque<Message> inbox;
-  std::chrono::duration<double> waiting{0};
+  Waits waits;
 };
 
 std::string list(const std::vector<std::string>& names) {
@@ -208,7 +208,7 @@ Message Hub::receive(const std::string& name) {
     if (member.presence != Presence::here) throw ParticipantLost(name, "is not part of the run at this time");
     state_->attend(second_look);
   }
-  member.waiting += Clock::now() - start;
+  member.waits.add(start, state_->transport.woke());
   Message message = std::move(member.inbox.front());
   member.inbox.pop_front();
   return message;
@@ -232,8 +232,8 @@ void Hub::stop_all(const std::string& reason) {
   }
 }
 
-double Hub::waiting_seconds(const std::string& name) const {
-  return state_->member(name).waiting.count();
+const Waits& Hub::waits(const std::string& name) const {
+  return state_->member(name).waits;
 }
 
 std::string Hub::endpoint() const {

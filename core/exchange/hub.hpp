@@ -6,6 +6,7 @@
 
 #include "core/exchange/errors.hpp"
 #include "core/exchange/message.hpp"
+#include "core/exchange/waits.hpp"
 
 namespace polynya::exchange {
 
@@ -37,8 +38,9 @@ class Hub {
   /// Sends `stop` to every participant that is still here. Never throws for a participant that is not.
   void stop_all(const std::string& reason);
 
-  /// Seconds spent blocked in receive(name).
-  double waiting_seconds(const std::string& name) const;
+  /// Seconds spent blocked in receive(name), and when.
+  double waiting_seconds(const std::string& name) const { return waits(name).total(); }
+  const Waits& waits(const std::string& name) const;
   /// The bound address, wildcards resolved.
   std::string endpoint() const;
 

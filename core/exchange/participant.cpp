@@ -16,7 +16,7 @@ struct Participant::State {
   Options options;
   Transport transport;
   Envelope envelope;
-  std::chrono::duration<double> waiting{0};
+  Waits waits;
 
   explicit State(Options given)
       : options(std::move(given)),
@@ -81,7 +81,7 @@ Message Participant::receive() {
   const auto start = Clock::now();
   std::optional<Message> message;
   while (!message) message = state_->next(Clock::now() + std::chrono::hours(1));
-  state_->waiting += Clock::now() - start;
+  state_->waits.add(start, state_->transport.woke());
   return std::move(*message);
 }
 
@@ -97,8 +97,8 @@ void Participant::fail(const std::string& reason) {
   send(std::move(message));
 }
 
-double Participant::waiting_seconds() const {
-  return state_->waiting.count();
+const Waits& Participant::waits() const {
+  return state_->waits;
 }
 
 }  // namespace polynya::exchange

@@ -5,6 +5,7 @@
 
 #include "core/exchange/errors.hpp"
 #include "core/exchange/message.hpp"
+#include "core/exchange/waits.hpp"
 
 namespace polynya::exchange {
 
@@ -38,8 +39,9 @@ class Participant {
   /// Tells the coupler that this participant cannot go on, in one sentence. The coupler ends the run with it.
   void fail(const std::string& reason);
 
-  /// Seconds spent blocked in receive().
-  double waiting_seconds() const;
+  /// Seconds spent blocked in receive(), and when.
+  double waiting_seconds() const { return waits().total(); }
+  const Waits& waits() const;
 
  private:
   struct State;

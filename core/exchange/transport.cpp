@@ -77,6 +77,7 @@ struct Transport::State {
   zmq::socket_t monitor;
   std::set<int> open;
   std::vector<int> closed;
+  std::chrono::steady_clock::time_point woke;
   std::vector<zmq::message_t> frames;
 
   State(Side which, const std::string& endpoint)
@@ -166,8 +167,14 @@ std::optional<Delivery> Transport::next(milliseconds longest) {
     if (std::optional<Delivery> delivery = state_->take()) return delivery;
     const auto left = std::chrono::ceil<milliseconds>(until - std::chrono::steady_clock::now());
     if (!state_->closed.empty() || left <= milliseconds(0)) return std::nullopt;
-    if (poll(both, 2, static_cast<int>(left.count())) > 0 && both[1].revents != 0) state_->read_monitor();
+    const int ready = poll(both, 2, static_cast<int>(left.count()));
+    state_->woke = std::chrono::steady_clock::now();
+    if (ready > 0 && both[1].revents != 0) state_->read_monitor();
   }
+}
+
+std::chrono::steady_clock::time_point Transport::woke() const {
+  return state_->woke;
 }
 
 std::vector<int> Transport::closed_connections() {

@@ -35,6 +35,9 @@ class Transport {
   /// So whoever finds nothing and then a closed connection has read all that came over it before.
   std::optional<Delivery> next(std::chrono::milliseconds longest);
 
+  /// When next() last came back from sleeping in the kernel; what follows is work on what arrived.
+  std::chrono::steady_clock::time_point woke() const;
+
   /// Connections that the other side closed since the last call, oldest first.
   std::vector<int> closed_connections();
   /// Whether a delivery's connection is still there; true for an unknown one (-1).

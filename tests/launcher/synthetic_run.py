@@ -35,6 +35,7 @@ SCENE = {
     "contact": {"friction": 0.1, "stiffness_factor": 0.1}, "materials": {},
     "participants": {name: {"command": "", "launch": ""} for name in ("structure", "ice", "fluid")},
     "effects": {"fluid": {"requested": "auto", "active": True, "reason": "the scene has water."},
+                "conversion": {"requested": "auto", "active": True, "reason": "elements become particles."},
                 "cavitation": {"requested": "auto", "active": False, "reason": "no pressure falls below vapour."}},
 }
 

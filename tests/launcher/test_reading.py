@@ -76,12 +76,15 @@ class Summary(Folder):
 
     def test_holds_what_was_found_and_what_it_cost(self):
         invented.write_run(self.folder, frames=0)
-        (self.folder / "logs" / "ice.json").write_text(json.dumps({"peak_memory": 5, "seconds": {"fluid": 2.5}}))
+        seconds = {"elements": 4.0, "particles": 2.0, "conversion": 0.5}
+        (self.folder / "logs" / "ice.json").write_text(json.dumps({"peak_memory": 5, "seconds": seconds}))
         found = self.merge()
         self.assertEqual((found["state"], found["energy_error"], found["particles"]), ("done", 1.2e-3, 480))
-        self.assertEqual(found["processes"]["ice"], {"cpu_time": 1.0, "peak_memory": 5, "seconds": {"fluid": 2.5}})
-        self.assertEqual(found["effects"]["fluid"]["state"], "on")
-        self.assertEqual(found["effects"]["fluid"]["time"], 2.5)
+        self.assertEqual(found["processes"]["ice"], {"cpu_time": 1.0, "peak_memory": 5, "seconds": seconds})
+        self.assertEqual((found["effects"]["conversion"]["state"], found["effects"]["conversion"]["time"]), ("on", 2.5))
+        self.assertEqual(found["effects"]["cavitation"]["time"], 0)
+        self.assertIsNone(found["effects"]["fluid"]["time"])
+        self.assertIn("reported", found["effects"]["fluid"]["time_note"])
         self.assertAlmostEqual(found["peak_head_stress"], 99.8e6, delta=1e5)
         self.assertAlmostEqual(found["residual_speed"], 36.0, delta=0.01)
         self.assertIsNone(found["mass_error"])

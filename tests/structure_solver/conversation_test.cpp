@@ -45,7 +45,7 @@ class Solver {
           } catch (const std::exception& error) {
             failure = error.what();
           }
-          output.close(coupler.waiting_seconds());
+          output.close(coupler.waits().intervals());
         }) {
     hub.await_participants(20);
   }
