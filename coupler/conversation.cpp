@@ -64,13 +64,15 @@ void receive_surfaces(Conversation& conversation, long window) {
   }
 }
 
-void send_loads(Conversation& conversation, long window, double next_step, bool finish, long frame) {
-  for (const SolidSide& side : conversation.solids) {
+void send_loads(Conversation& conversation, const WindowEnd& end) {
+  for (SolidSide& side : conversation.solids) {
     exchange::Message loads = make_loads(side);
-    loads.header["window"] = window;
-    loads.header["next_step"] = next_step;
-    loads.header["finish"] = finish;
-    loads.header["frame"] = frame;
+    if (const int threads = std::exchange(side.new_threads, 0)) loads.header["threads"] = threads;
+    loads.header["window"] = end.window;
+    loads.header["next_step"] = end.next_length;
+    loads.header["finish"] = end.finish;
+    loads.header["frame"] = end.frame;
+    if (end.free) loads.header["free"] = true;
     conversation.hub.send(side.name, std::move(loads));
   }
 }

@@ -27,8 +27,17 @@ void begin_solids(Conversation& conversation, double step);
 /// `surface` of every solid: positions at the end of the window.
 void receive_surfaces(Conversation& conversation, long window);
 
-/// `loads` to every solid. `frame` is the number of the field frame to write, -1 for none.
-void send_loads(Conversation& conversation, long window, double next_step, bool finish, long frame);
+/// What `loads` say besides the loads.
+struct WindowEnd {
+  long window = 0;
+  double next_length = 0;  ///< s, of the next window
+  bool free = false;       ///< nothing acts between the participants before its end
+  bool finish = false;
+  long frame = -1;         ///< number of the field frame to write now, -1 for none
+};
+
+/// `loads` to every solid.
+void send_loads(Conversation& conversation, const WindowEnd& end);
 
 /// `finished` from everybody, `bye` to everybody; returns what each had to say at the end.
 std::vector<std::pair<std::string, nlohmann::json>> say_goodbye(Conversation& conversation);

@@ -12,10 +12,12 @@
 #include "core/results/process_report.hpp"
 #include "coupler/conversation.hpp"
 #include "coupler/end_condition.hpp"
+#include "coupler/horizon.hpp"
 #include "coupler/ledger.hpp"
 #include "coupler/monitor.hpp"
 #include "coupler/overlap_exchange.hpp"
 #include "coupler/stability_limits.hpp"
+#include "coupler/thread_balance.hpp"
 #include "coupler/time_keeper.hpp"
 
 namespace polynya::coupler {
@@ -24,6 +26,7 @@ namespace {
 constexpr long cuts_between_samples = 100;   // every 100 cuts a seeded sample is recut by CGAL
 constexpr std::size_t cells_in_sample = 8;
 constexpr double largest_sample_difference = 1e-10;
+constexpr double least_free_window = 3;      // steps: shorter ones are not worth it
 
 /// Everything that lives as long as the run.
 struct Run {
@@ -46,6 +49,9 @@ struct Run {
   bool step_warned = false;
   long frame = 0, cuts = 0;
   std::string end;  ///< why the run ends; empty while it goes on
+  std::optional<ThreadBalance> balance;
+  std::chrono::steady_clock::time_point span_began;  ///< on the wall
+  long span_window = 0;                              ///< number of the span's first window
 
   Run(const scene::Scene& s, std::string run_folder, exchange::Hub& hub)
       : scene(s), folder(std::move(run_folder)), conversation{hub, {}, std::nullopt}, ledger_file(folder),
@@ -81,6 +87,35 @@ void watch_step(Run& run) {
   if (run.planned_step < run.first_planned_step / 1000) throw std::runtime_error(limits);
   if (!run.step_warned) spdlog::warn("{}", limits);
   run.step_warned = true;
+}
+
+void suggest_threads(Run& run, const std::string& name, int threads) {
+  if (name == "coupler") return compute::use_threads(threads);
+  if (run.conversation.fluid && run.conversation.fluid->name == name) run.conversation.fluid->new_threads = threads;
+  for (SolidSide& side : run.conversation.solids)
+    if (side.name == name) side.new_threads = threads;
+}
+
+/// The cores to share are those that this process was given. Processes whose threads the scene fixes keep them.
+void begin_balance(Run& run, const std::vector<std::string>& names) {
+  const int cores = compute::threads();
+  std::map<std::string, int> threads{{"coupler", cores}};
+  for (const std::string& name : names)
+    if (const auto own = run.scene.participants.find(name); own == run.scene.participants.end() || own->second.threads == 0)
+      threads[name] = first_threads(name, cores);
+  run.balance.emplace(cores, threads);
+  for (const auto& [name, count] : threads) suggest_threads(run, name, count);
+  run.span_began = std::chrono::steady_clock::now();
+}
+
+/// Tells the balance how long the windows of the span that ended took, and passes on what it wants to try.
+void balance_threads(Run& run) {
+  const auto now = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> passed = now - std::exchange(run.span_began, now);
+  const long windows = run.keeper.window + 1 - std::exchange(run.span_window, run.keeper.window + 1);
+  if (run.keeper.free()) return;
+  for (const std::string& name : run.balance->note(passed.count() / static_cast<double>(windows)))
+    suggest_threads(run, name, run.balance->threads(name));
 }
 
 void plan_next_span(Run& run) {
@@ -148,11 +183,12 @@ void begin(Run& run, const std::vector<std::string>& names) {
     fluid.account.set_initial(answer);
   }
   plan_next_span(run);
-  run.keeper.step = run.planned_step;
+  run.keeper.step = run.keeper.length = run.planned_step;
   spdlog::info("first window {:.3e} s, {} windows in the first span; stable: solids {:.3e} s, fluid {:.3e} s, lag {:.3e} s",
                run.keeper.step, run.keeper.windows_left, run.limits.solid_stable, run.limits.fluid_stable,
                run.limits.lag_limit);
   run.monitor.emplace(run.scene, run.folder, run.conversation);
+  begin_balance(run, names);
   begin_solids(run.conversation, run.keeper.step);
 }
 
@@ -188,6 +224,7 @@ void send_span(Run& run, long frame) {
   message.header["time1"] = run.keeper.time;
   message.header["finish"] = !run.end.empty();
   message.header["frame"] = frame;
+  if (const int threads = std::exchange(run.conversation.fluid->new_threads, 0)) message.header["threads"] = threads;
   add_overlap(message, cells);
   run.conversation.hub.send(run.conversation.fluid->name, std::move(message));
 }
@@ -275,11 +312,11 @@ void take_surfaces(Run& run) {
     receive_surfaces(run.conversation, run.keeper.window);
   }
   const auto lap = run.watch.lap("ledger");
-  run.keeper.time += run.keeper.step;
+  run.keeper.time += run.keeper.length;
   for (SolidSide& side : run.conversation.solids) {
     run.work[static_cast<int>(side.body)].settle(side, run.ledger);
     run.topology_changed = run.topology_changed || side.topology_changed;
-    side.add_to_mean(run.keeper.step);
+    side.add_to_mean(run.keeper.length);
   }
 }
 
@@ -291,9 +328,29 @@ long end_or_frame(Run& run) {
   return run.frame++;
 }
 
+/// How long nothing can act between the participants, s: without fluid until the solids may touch.
+double quiet_time(Run& run) {
+  const SolidSide* vehicle = run.conversation.find(Body::vehicle);
+  const SolidSide* ice = run.conversation.find(Body::ice);
+  if (run.conversation.fluid || !vehicle || !ice || !vehicle->can_subdivide || !ice->can_subdivide) return 0;
+  const double until_frame = run.next_frame_time - run.keeper.time;
+  const double until_end = time_to_end(run.scene, run.keeper.time, run.monitor->nose(), run.monitor->speed());
+  return std::min({time_apart(*vehicle, *ice, run.scene.run.gravity), until_frame, until_end});
+}
+
+/// Length of the next window, which is not free when it takes `step`.
+double next_length(Run& run, double step, bool span_ends) {
+  const double quiet = span_ends ? quiet_time(run) : 0.0;
+  if (quiet < least_free_window * step) return step;
+  run.keeper.windows_left = 1;
+  ++run.keeper.free_windows;
+  return quiet;
+}
+
 /// Hands out the loads of this window and the length of the next one.
-void give_loads(Run& run, long frame) {
+void give_loads(Run& run, bool span_ends, long frame) {
   const double next = next_step(run.limits, run.planned_step, run.keeper.step);
+  const double length = next_length(run, next, span_ends);
   const double acting_time = run.keeper.acting_time(next);
   {
     const auto lap = run.watch.lap("ledger");
@@ -302,9 +359,10 @@ void give_loads(Run& run, long frame) {
     for (SolidSide& side : run.conversation.solids) run.work[static_cast<int>(side.body)].remember(side, acting_time);
   }
   const auto lap = run.watch.lap("messages");
-  send_loads(run.conversation, run.keeper.window, next, !run.end.empty(), frame);
+  send_loads(run.conversation, {run.keeper.window, length, length > next, !run.end.empty(), frame});
   ++run.keeper.window;
   run.keeper.step = next;
+  run.keeper.length = length;
 }
 
 /// One window of docs/coupling.md: positions, at the end of a span the fluid, contact, loads.
@@ -322,12 +380,13 @@ void advance_window(Run& run) {
   if (span_ends) {
     const auto lap = run.watch.lap("ledger");
     ++run.keeper.span;
+    balance_threads(run);
     run.monitor->append_row(run.keeper, run.conversation, run.ledger, run.planned_step);
     plan_next_span(run);
   } else {
     refresh_limits(run);
   }
-  give_loads(run, frame);
+  give_loads(run, span_ends, frame);
 }
 
 std::vector<std::pair<std::string, nlohmann::json>> part(Run& run) {
@@ -346,6 +405,7 @@ void write_reports(Run& run, const std::vector<std::pair<std::string, nlohmann::
   report.set_headings(run.watch.seconds(), run.watch.cpu_seconds());
   report.threads = compute::threads();
   report.counts["windows"] = static_cast<double>(run.keeper.window);
+  report.counts["free_windows"] = static_cast<double>(run.keeper.free_windows);
   report.counts["spans"] = static_cast<double>(run.keeper.span);
   report.write(run.folder, "coupler");
 }

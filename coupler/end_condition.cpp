@@ -1,17 +1,43 @@
 #include "coupler/end_condition.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace polynya::coupler {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Whether the vehicle ends the run before its time is over.
+bool vehicle_ends(const scene::Scene& scene) {
+  return scene.run.end != "time" && scene.vehicle && scene.ice;
+}
+
+/// z of the nose (m) at which the run ends.
+double last_nose_position(const scene::Scene& scene) {
+  const double upper_face = scene.ice->lower_face + scene.ice->thickness;
+  const scene::Vehicle& vehicle = *scene.vehicle;
+  if (scene.run.end == "ice_passed") return upper_face + vehicle.diameter + vehicle.head_length;
+  if (scene.run.end == "exited") return upper_face + vehicle.length;
+  return infinity;
+}
+
+}  // namespace
 
 std::string end_reason(const scene::Scene& scene, double time, double nose, double speed) {
   // Half a nanosecond: far below any step, far above the rounding of a sum of steps.
   if (time >= scene.run.end_time - 5e-10) return "time";
-  if (scene.run.end == "time" || !scene.vehicle || !scene.ice) return {};
+  if (!vehicle_ends(scene)) return {};
   if (speed <= 0) return "vehicle_stopped";
-  const double upper_face = scene.ice->lower_face + scene.ice->thickness;
-  const scene::Vehicle& vehicle = *scene.vehicle;
-  if (scene.run.end == "ice_passed" && nose - vehicle.head_length >= upper_face + vehicle.diameter) return "ice_passed";
-  if (scene.run.end == "exited" && nose - vehicle.length >= upper_face) return "exited";
-  return {};
+  return nose >= last_nose_position(scene) ? scene.run.end : std::string{};
+}
+
+double time_to_end(const scene::Scene& scene, double time, double nose, double speed) {
+  double left = scene.run.end_time - time;
+  if (!vehicle_ends(scene)) return left;
+  if (scene.run.gravity > 0) left = std::min(left, std::max(0.0, speed) / scene.run.gravity);
+  if (speed > 0) left = std::min(left, (last_nose_position(scene) - nose) / speed);
+  return std::max(0.0, left);
 }
 
 }  // namespace polynya::coupler

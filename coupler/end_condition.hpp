@@ -12,4 +12,7 @@ namespace polynya::coupler {
 ///   "exited"      the tail is above the ice's upper face, or the vehicle stopped
 std::string end_reason(const scene::Scene& scene, double time, double nose, double speed);
 
+/// Time (s) until that can change when nothing but weight acts on the vehicle.
+double time_to_end(const scene::Scene& scene, double time, double nose, double speed);
+
 }  // namespace polynya::coupler

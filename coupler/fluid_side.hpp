@@ -18,6 +18,7 @@ struct WallPressure {
 struct FluidSide {
   std::string name;
   double stable_step = 0;  ///< s
+  int new_threads = 0;     ///< number of threads to suggest with the next span; 0: nothing new
   Account account;
   geometry::GridLines grid;
 };

@@ -135,6 +135,7 @@ nlohmann::json Monitor::summary(const TimeKeeper& keeper, const Conversation& co
   summary["end_time"] = keeper.time;
   summary["windows"] = keeper.window;
   summary["steps"] = keeper.window;
+  summary["free_windows"] = keeper.free_windows;
   summary["spans"] = keeper.span;
   if (conversation.find(Body::vehicle)) {
     summary["initial_speed"] = initial_speed_;

@@ -17,10 +17,14 @@ struct StepLimits {
 /// Time of the coupled run.
 struct TimeKeeper {
   double time = 0;           ///< s, end of the last window
-  double step = 0;           ///< s, of the current window
+  double step = 0;           ///< s, of the current window; of a free one: step of the next one that is not
+  double length = 0;         ///< s, of the current window: `step`, or longer when it is free
   double span_start = 0;     ///< s
   long window = 0, span = 0; ///< completed
   long windows_left = 0;     ///< in the current span
+  long free_windows = 0;     ///< completed, in which nothing acted between the solids
+
+  bool free() const { return length > step; }
 
   /// Time over which the force at the end of the current window acts: half this window and half the next one.
   double acting_time(double next_step) const { return 0.5 * (step + next_step); }

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "core/compute/threads.hpp"
 #include "core/exchange/errors.hpp"
 
 namespace polynya::fluid {
@@ -125,6 +126,7 @@ void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant&
       span = coupler.receive("span");
       next = read_overlap(span);
     }
+    compute::use_threads(span.header.value("threads", 0));
     const double dt = positive_span(span, fluid.time);
     if (fluid.steps == 0 && scene.fluid->start == "potential_flow") {
       const auto lap = fluid.watch.lap("start");

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/compute/equal_steps.hpp"
+#include "core/compute/threads.hpp"
 #include "ice_solver/account.hpp"
 #include "ice_solver/fields.hpp"
 #include "ice_solver/ice_surface.hpp"
@@ -38,6 +40,7 @@ Message ready_message(IceBody& ice, const IceSurface& surface) {
   Message ready("ready");
   ready.header["role"] = "solid";
   ready.header["body"] = "ice";
+  ready.header["can_subdivide"] = true;
   ready.header["account"] = account_names();
   add_topology(ready, surface);
   add_motion_and_account(ready, ice, surface);
@@ -54,7 +57,43 @@ Message surface_message(IceBody& ice, const IceSurface& surface, long window) {
   return message;
 }
 
-/// The half of a window after positions are known; returns the length of the next one, 0 to finish.
+void convert(IceRun& run, IceSurface& surface) {
+  const std::size_t converted = convert_failed_elements(run.ice);
+  if (converted == 0) return;
+  const auto lap = run.ice.watch.lap("conversion");
+  if (run.ice.particles.count() == converted) spdlog::info("first particles at t = {:.6e} s", run.ice.solid.time);
+  surface = surface_of(run.ice);
+}
+
+void note_step(IceRun& run, double dt) {
+  run.smallest_step = std::min(run.smallest_step, dt);
+  ++run.steps;
+}
+
+double own_step(const IceRun& run, double left) {
+  return compute::equal_step(left, run.scene.run.step_factor * stable_step(run.ice));
+}
+
+/// Steps of a free window but for its last one, whose length is returned: no loads, and no messages.
+double advance_freely(IceRun& run, IceSurface& surface, double step, double left) {
+  bool changed = run.ice.topology_changed;
+  while (left > 0) {
+    const double next = own_step(run, left);
+    advance_positions(run.ice, step);
+    internal_forces(run.ice, step);
+    advance_velocities(run.ice, {}, {}, step, next);
+    convert(run, surface);
+    changed = changed || run.ice.topology_changed;
+    note_step(run, step);
+    left -= next;
+    step = next;
+  }
+  run.ice.topology_changed = changed;
+  return step;
+}
+
+/// What remains of a window after its positions are known, and of the next one, if it is free, all but the last step;
+/// returns the length of the step that comes now, 0 to finish.
 double finish_window(IceRun& run, exchange::Participant& participant, IceSurface& surface, IceFrames& frames, double dt) {
   internal_forces(run.ice, dt);
   Message loads;
@@ -65,20 +104,19 @@ double finish_window(IceRun& run, exchange::Participant& participant, IceSurface
     distribute_loads(run.ice, surface, loads.view<std::int64_t>("load.vertices"), loads.view<double>("load.forces"),
                      node_loads, particle_loads);
   }
-  const double next = loads.header.at("next_step").get<double>();
+  compute::use_threads(loads.header.value("threads", 0));
+  const double length = loads.header.at("next_step").get<double>();
+  const bool free = loads.header.value("free", false);
+  const double next = free ? own_step(run, length) : length;
   advance_velocities(run.ice, node_loads, particle_loads, dt, next);
   const int frame = loads.header.at("frame").get<int>();
   if (frame >= 0) {
     const auto lap = run.ice.watch.lap("frames");
     frames.write(frame, run.ice);
   }
-  const std::size_t converted = convert_failed_elements(run.ice);
-  if (converted > 0) {
-    const auto lap = run.ice.watch.lap("conversion");
-    if (run.ice.particles.count() == converted) spdlog::info("first particles at t = {:.6e} s", run.ice.solid.time);
-    surface = surface_of(run.ice);
-  }
-  return loads.header.at("finish").get<bool>() ? 0.0 : next;
+  convert(run, surface);
+  if (loads.header.at("finish").get<bool>()) return 0;
+  return free ? advance_freely(run, surface, next, length - next) : next;
 }
 
 }  // namespace
@@ -102,8 +140,7 @@ void run_coupled(IceRun& run, exchange::Participant& participant) {
       const auto lap = ice.watch.lap("messages");
       participant.send(surface_message(ice, surface, window));
     }
-    run.smallest_step = std::min(run.smallest_step, dt);
-    ++run.steps;
+    note_step(run, dt);
     dt = finish_window(run, participant, surface, frames, dt);
   }
   Message finished("finished");

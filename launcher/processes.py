@@ -34,11 +34,9 @@ def programs_for(scene: dict, names: list[str]) -> list[str]:
     return own + ([PROGRAMS["coupler"]] if len(names) > 1 else [])
 
 
-def threads_for(name: str, cores: int, coupled: bool) -> int:
-    """The fluid and the coupler work while all others wait and get every core; the solids work at the same time."""
-    if not coupled or name in ("fluid", "coupler"):
-        return cores
-    return max(1, cores // 2)
+def threads_for(scene: dict, name: str, cores: int) -> int:
+    """What the scene fixes; else all cores, which the coupler shares out once the run has begun."""
+    return ((scene.get("participants") or {}).get(name) or {}).get("threads") or cores
 
 
 def plan(scene: dict, names: list[str], folder: Path, binaries: Path, cores: int, socket: Path | None) -> list[Plan]:
@@ -52,7 +50,7 @@ def plan(scene: dict, names: list[str], folder: Path, binaries: Path, cores: int
         else:
             words = arguments(name, folder, endpoint if coupled else None, run_id)
         front, setting, start_folder = swap.front(scene, name, str(binaries / PROGRAMS[name]))
-        environment = {"OMP_WAIT_POLICY": "passive", "OMP_NUM_THREADS": str(threads_for(name, cores, coupled))}
+        environment = {"OMP_WAIT_POLICY": "passive", "OMP_NUM_THREADS": str(threads_for(scene, name, cores))}
         plans.append(Plan(name, front + words, environment, setting, start_folder))
     return plans
 

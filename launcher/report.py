@@ -22,7 +22,7 @@ HEALTH = (("energy error", "energy_error", "%"), ("momentum error", "momentum_er
           ("fluid cells", "cells", "n"), ("elements", "elements", "n"), ("converted", "converted_elements", "n"),
           ("particles", "particles", "n"), ("exchange", "exchange_share", "%"), ("wall time", "wall_time", "wall"))
 
-NOT_SHOWN = {"end_time", "filter_frequency", "shoulder_clear_speed", "windows", "spans", "overlap_cuts",
+NOT_SHOWN = {"end_time", "filter_frequency", "shoulder_clear_speed", "windows", "free_windows", "spans", "overlap_cuts",
              "largest_energy_error", "largest_momentum_error", "deepest_contact", "peak_wall_pressure"}
 
 

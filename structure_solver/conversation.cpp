@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "core/compute/equal_steps.hpp"
+#include "core/compute/threads.hpp"
 #include "core/exchange/errors.hpp"
 #include "structure_solver/conversation.hpp"
+#include "structure_solver/free_flight.hpp"
 
 namespace polynya::structure {
 namespace {
@@ -30,6 +33,7 @@ exchange::Message make_ready(const BuiltVehicle& vehicle, const Account& account
   ready.header["role"] = "solid";
   ready.header["body"] = "vehicle";
   ready.header["stable_step"] = vehicle.body->stable_step();
+  ready.header["can_subdivide"] = true;
   for (const AccountEntry& entry : account_entries) ready.header["account"].push_back(std::string(entry.name));
   add_account(ready, account);
   const std::size_t n = vehicle.mesh.hull_nodes.size();
@@ -81,9 +85,21 @@ double positive_step(const exchange::Message& message, const char* key) {
   return step;
 }
 
+/// Steps of a free window but for its last one, whose length is returned: no loads, and no messages.
+double advance_freely(VehicleBody& body, double step, double left, double step_factor, double& time, Output& output) {
+  while (left > 0) {
+    const double next = compute::equal_step(left, step_factor * body.stable_step());
+    time += step;
+    step_freely(body, step, next, time, output);
+    left -= next;
+    step = next;
+  }
+  return step;
+}
+
 }  // namespace
 
-void run_coupled(BuiltVehicle& vehicle, exchange::Participant& coupler, Output& output) {
+void run_coupled(BuiltVehicle& vehicle, double step_factor, exchange::Participant& coupler, Output& output) {
   VehicleBody& body = *vehicle.body;
   Account account = body.account();
   exchange::Message begin;
@@ -119,11 +135,14 @@ void run_coupled(BuiltVehicle& vehicle, exchange::Participant& coupler, Output& 
       loads = coupler.receive("loads");
       read_loads(loads, hull_force);
     }
+    compute::use_threads(loads.header.value("threads", 0));
     const bool finish = loads.header.value("finish", false);
     const double next = finish ? loads.header.value("next_step", dt) : positive_step(loads, "next_step");
+    const bool free = loads.header.value("free", false);
+    const double first = free ? compute::equal_step(next, step_factor * body.stable_step()) : next;
     {
       const auto lap = watch.lap("velocities");
-      body.finish_step(hull_force, dt, next);
+      body.finish_step(hull_force, dt, first);
     }
     {
       const auto lap = watch.lap("account");
@@ -131,7 +150,11 @@ void run_coupled(BuiltVehicle& vehicle, exchange::Participant& coupler, Output& 
     }
     output.record(time, dt, account);
     if (const int frame = loads.header.value("frame", -1); frame >= 0) output.write_frame(frame, time);
-    dt = next;
+    dt = first;
+    if (free) {
+      dt = advance_freely(body, first, next - first, step_factor, time, output);
+      account = body.account();
+    }
     if (finish) break;
   }
   exchange::Message finished("finished");

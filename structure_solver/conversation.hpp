@@ -6,6 +6,7 @@
 namespace polynya::structure {
 
 /// Coupled: windows as docs/protocol.md says, until the coupler says `finish`. Throws what Participant throws.
-void run_coupled(BuiltVehicle& vehicle, exchange::Participant& coupler, Output& output);
+/// step_factor: fraction of the stable step that it takes in free windows.
+void run_coupled(BuiltVehicle& vehicle, double step_factor, exchange::Participant& coupler, Output& output);
 
 }  // namespace polynya::structure

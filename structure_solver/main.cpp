@@ -68,7 +68,7 @@ void run(const Options& options, const scene::Scene& scene, structure::BuiltVehi
   }
   exchange::Participant coupler({options.endpoint, options.run, options.name});
   try {
-    structure::run_coupled(vehicle, coupler, output);
+    structure::run_coupled(vehicle, scene.run.step_factor, coupler, output);
     output.close(coupler.waits().intervals());
   } catch (const exchange::Stopped&) {
     output.close(coupler.waits().intervals());

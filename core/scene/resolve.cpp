@@ -124,7 +124,8 @@ EffectRequest effect_requests(const Values& values) {
 void read_participants(const Values& values, Scene& scene) {
   const auto add = [&](const std::string& name) {
     const auto path = "participants." + name;
-    scene.participants[name] = {values.text(path + ".command"), values.text(path + ".launch")};
+    scene.participants[name] = {values.text(path + ".command"), values.text(path + ".launch"),
+                                static_cast<int>(values.number(path + ".threads"))};
   };
   if (scene.vehicle) add("structure");
   if (scene.ice) add("ice");

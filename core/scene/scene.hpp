@@ -113,6 +113,7 @@ struct Contact {
 struct ParticipantCommand {
   std::string command;  ///< empty: the project's own executable
   std::string launch;   ///< put in front of the command
+  int threads = 0;      ///< for all of the run; 0: what the coupler finds best
 };
 
 struct Scene {

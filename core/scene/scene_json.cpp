@@ -94,7 +94,7 @@ void members(Part& p, Visit&& visit) {
 template <class Part, class Visit>
 requires std::is_same_v<std::remove_const_t<Part>, ParticipantCommand>
 void members(Part& p, Visit&& visit) {
-  visit("command", p.command), visit("launch", p.launch);
+  visit("command", p.command), visit("launch", p.launch), visit("threads", p.threads);
 }
 
 template <class Part, class Visit>

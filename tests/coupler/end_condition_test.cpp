@@ -39,3 +39,12 @@ TEST(EndCondition, StoppedVehicleAndLatestTimeEndEveryRun) {
   EXPECT_EQ(coupler::end_reason(scene, 0, 0, -0.1), "vehicle_stopped");
   EXPECT_EQ(coupler::end_reason(scene, 1e-3, 0, 40), "time");
 }
+
+TEST(EndCondition, NothingEndsTheRunBeforeTheTimeThatIsForetold) {
+  scene::Scene scene = thin_ice();
+  scene.run.gravity = 9.81;
+  EXPECT_DOUBLE_EQ(coupler::time_to_end(scene, 0.25e-3, -0.5, 40), 0.75e-3);         // latest end
+  EXPECT_NEAR(coupler::time_to_end(scene, 0, 0.01, 40), 0.02 / 40, 1e-15);           // a diameter above the ice
+  EXPECT_NEAR(coupler::time_to_end(scene, 0, 0.01, 1e-3), 1e-3 / 9.81, 1e-15);       // weight stops it before
+  EXPECT_EQ(coupler::time_to_end(scene, 0, 0.05, 40), 0);
+}

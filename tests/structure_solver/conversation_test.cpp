@@ -41,7 +41,7 @@ class Solver {
           Output output(folder.path(), "structure", 1e-4, vehicle);
           exchange::Participant coupler({"ipc://" + (folder / "socket"), "run", "structure"});
           try {
-            run_coupled(vehicle, coupler, output);
+            run_coupled(vehicle, scene.run.step_factor, coupler, output);
           } catch (const std::exception& error) {
             failure = error.what();
           }
@@ -124,6 +124,59 @@ TEST(StructureConversation, WindowsFollowTheProtocolAndMomentumIsTheImpulse) {
     EXPECT_TRUE(std::filesystem::exists(folder / "series/structure.csv"));
     EXPECT_TRUE(std::filesystem::exists(folder / "logs/structure.json"));
   }
+}
+
+/// A few windows under load, so that the vehicle rings, then a time without loads: one free window, or windows of the
+/// given lengths. Returns the last `surface`.
+Message after_a_quiet_time(bool deformable, const std::vector<double>& quiet, bool free) {
+  const Folder folder;
+  Solver solver(folder, deformable);
+  const Message ready = solver.hub.receive("structure", "ready");
+  EXPECT_TRUE(ready.header.at("can_subdivide").get<bool>());
+  constexpr double dt = 4e-8;
+  Message begin("begin");
+  begin.header.update({{"time", 0.0}, {"step", dt}});
+  solver.hub.send("structure", begin);
+  constexpr long loaded = 50;
+  const long windows = loaded + static_cast<long>(quiet.size());
+  Message surface;
+  for (long window = 0; window <= windows; ++window) {
+    surface = solver.hub.receive("structure", "surface");
+    const bool finish = window == windows;
+    Message loads("loads");
+    loads.header.update({{"window", window}, {"finish", finish}, {"frame", -1}});
+    loads.header["next_step"] = window < loaded || finish ? dt : quiet[static_cast<std::size_t>(window - loaded)];
+    if (free && window == loaded) loads.header["free"] = true;
+    const std::int64_t vertex[] = {0};
+    const double forces[] = {0, 0, window < loaded ? -50.0 : 0.0};
+    loads.add<std::int64_t>("load.vertices", {1}, vertex);
+    loads.add<double>("load.forces", {1, 3}, forces);
+    solver.hub.send("structure", loads);
+  }
+  const Message finished = solver.hub.receive("structure", "finished");
+  EXPECT_LT(std::abs(finished.header.at("energy_error").get<double>()), 1e-12);
+  solver.hub.send("structure", Message("bye"));
+  solver.join();
+  return surface;
+}
+
+TEST(StructureConversation, FreeWindowIsTheSameAsWindowsOfItsOwnStepsWithoutLoads) {
+  double stable = 0;
+  {
+    scene::Scene scene = vehicle_scene();
+    stable = build_vehicle(scene).body->stable_step();
+  }
+  // 21 steps as long as the stable step of the ringing body is within 4.6 % of that at rest.
+  const double length = 20.02 * 0.9 * stable;
+  const Message free = after_a_quiet_time(true, {length}, true);
+  const Message bound = after_a_quiet_time(true, std::vector<double>(21, length / 21), false);
+  EXPECT_EQ(free.header.at("window"), 51);
+  for (const char* name : {"positions", "velocities", "account"}) {
+    const auto a = free.view<double>(name), b = bound.view<double>(name);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-9 * std::abs(b[i]) + 1e-13) << name << ' ' << i;
+  }
+  EXPECT_NEAR(free.header.at("time").get<double>(), bound.header.at("time").get<double>(), 1e-15);
 }
 
 TEST(StructureConversation, StopEndsTheRunWithItsReason) {
