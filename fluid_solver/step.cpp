@@ -9,7 +9,7 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
   std::vector<StepWall> walls;
   VolumeCorrection correction;
   {
-    const auto lap = fluid.watch.lap("cut geometry");
+    const auto lap = fluid.watch.lap("cut_geometry");
     std::swap(fluid.before, fluid.after);
     fluid.after.set(fluid.grid, fluid.setup.boundary, overlap);
     if (fluid.steps == 0) fluid.before.open_like(fluid.after);
@@ -19,14 +19,14 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     fluid.groups = find_groups(fluid.grid, fluid.before, fluid.after, fluid.groups, fluid.label);
   }
   {
-    const auto lap = fluid.watch.lap("volume correction");
+    const auto lap = fluid.watch.lap("volume_correction");
     walls = join_walls(fluid.before, fluid.after);
     account.released_room += release_room(fluid.grid, fluid.before, fluid.after, walls, dt);
     correction = correct_volumes(fluid.grid, fluid.before, fluid.after, walls, dt, fluid.label);
     fluid.correction_iterations = correction.iterations;
   }
   {
-    const auto lap = fluid.watch.lap("face coefficients");
+    const auto lap = fluid.watch.lap("face_coefficients");
     update_face_coefficients(fluid);
     apply_to_cells(fluid, correction);
   }
@@ -51,7 +51,10 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     }
     accelerate_nodes(fluid, dt);
     mean_face_rates(fluid);
-    advance_far_field(fluid, dt);
+    {
+      const auto inner = fluid.watch.lap("boundaries");
+      advance_far_field(fluid, dt);
+    }
     work_and_donors(fluid, dt);
     set_group_donors(fluid, dt);
     book_walls(fluid, dt, walls, correction);

@@ -16,7 +16,7 @@ namespace polynya::exchange {
 namespace {
 
 constexpr int warm_up = 50;
-constexpr int windows = 400;
+constexpr int windows = 2000;
 
 struct SocketFolder {
   std::string path;
