@@ -58,7 +58,8 @@ def draw(waits: dict[str, list[Wait]], axes: pyplot.Axes) -> None:
                     beside = row["coupler"] + 0.5 * sign(row[other] - row["coupler"])
                     to_the_left = word != "surface"
                     axes.text(at, beside, f"{word} " if to_the_left else f" {word}", fontsize=8.5, va="center",
-                              ha="right" if to_the_left else "left")
+                              ha="right" if to_the_left else "left",
+                              bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.8})
                 said.add(word)
     axes.set_yticks([row[name] for name in NAMES], NAMES)
     axes.set_xlim(0, 1e3 * (end - start))
