@@ -6,19 +6,13 @@
 #include <fstream>
 
 #include "core/compute/threads.hpp"
-#include "core/compute/timer.hpp"
-#include "core/contact/penalty_contact.hpp"
 #include "core/exchange/errors.hpp"
 #include "core/results/process_report.hpp"
 #include "coupler/conversation.hpp"
 #include "coupler/end_condition.hpp"
-#include "coupler/horizon.hpp"
-#include "coupler/ledger.hpp"
-#include "coupler/monitor.hpp"
-#include "coupler/overlap_exchange.hpp"
+#include "coupler/pacing.hpp"
+#include "coupler/run_state.hpp"
 #include "coupler/stability_limits.hpp"
-#include "coupler/thread_balance.hpp"
-#include "coupler/time_keeper.hpp"
 
 namespace polynya::coupler {
 namespace {
@@ -26,121 +20,6 @@ namespace {
 constexpr long cuts_between_samples = 100;   // every 100 cuts a seeded sample is recut by CGAL
 constexpr std::size_t cells_in_sample = 8;
 constexpr double largest_sample_difference = 1e-10;
-constexpr double least_free_window = 3;      // steps: shorter ones are not worth it
-
-/// Everything that lives as long as the run.
-struct Run {
-  const scene::Scene& scene;
-  std::string folder;
-  Conversation conversation;
-  compute::Stopwatch watch;
-  TimeKeeper keeper;
-  StepLimits limits;
-  Ledger ledger;
-  LedgerFile ledger_file;
-  std::array<WorkMeter, body_count> work;
-  contact::PenaltyContact contact;
-  bool contact_ready = false, topology_changed = false;
-  std::optional<OverlapExchange> overlap;
-  std::optional<Monitor> monitor;
-  double planned_step = 0, first_planned_step = 0, next_frame_time = 0;
-  double logged_lag_limit = 1;  ///< s
-  double slowest_answer = 1;    ///< s, longest span that lets the fluid follow the fastest motion of the intact ice
-  bool step_warned = false;
-  long frame = 0, cuts = 0;
-  std::string end;  ///< why the run ends; empty while it goes on
-  std::optional<ThreadBalance> balance;
-  std::chrono::steady_clock::time_point span_began;  ///< on the wall
-  long span_window = 0;                              ///< number of the span's first window
-
-  Run(const scene::Scene& s, std::string run_folder, exchange::Hub& hub)
-      : scene(s), folder(std::move(run_folder)), conversation{hub, {}, std::nullopt}, ledger_file(folder),
-        contact(contact_law(s)) {}
-
-  static contact::PenaltyLaw contact_law(const scene::Scene& s) {
-    contact::PenaltyLaw law;
-    law.friction = s.effect("friction") ? s.contact.friction : 0.0;
-    law.stiffness_factor = s.contact.stiffness_factor;
-    law.depth_limit = s.resolution.ice_element;
-    law.mirror = {s.symmetry == scene::Symmetry::quarter, s.symmetry != scene::Symmetry::full};
-    return law;
-  }
-};
-
-void refresh_limits(Run& run) {
-  run.limits.solid_stable = 1e300;
-  for (const SolidSide& side : run.conversation.solids)
-    run.limits.solid_stable = std::min(run.limits.solid_stable, side.stable_step);
-  if (run.conversation.fluid) run.limits.fluid_stable = run.conversation.fluid->stable_step;
-  if (!(run.limits.solid_stable > 0)) throw std::runtime_error("a solid reports a stable step that is not positive");
-}
-
-/// A step that collapses would never reach the end: says what limits it, and stops when it is hopeless.
-void watch_step(Run& run) {
-  run.first_planned_step = std::max(run.first_planned_step, run.planned_step);
-  if (run.planned_step > run.first_planned_step / 20) return;
-  std::string solids;
-  for (const SolidSide& side : run.conversation.solids)
-    solids += fmt::format("{} {:.2e} s, ", side.name, side.stable_step);
-  const std::string limits = fmt::format("the window has fallen to {:.2e} s at t = {:.4e} s; stable steps: {}fluid {:.2e} s, lag of fluid loads {:.2e} s",
-                                         run.planned_step, run.keeper.time, solids, run.limits.fluid_stable, run.limits.lag_limit);
-  if (run.planned_step < run.first_planned_step / 1000) throw std::runtime_error(limits);
-  if (!run.step_warned) spdlog::warn("{}", limits);
-  run.step_warned = true;
-}
-
-void suggest_threads(Run& run, const std::string& name, int threads) {
-  if (name == "coupler") return compute::use_threads(threads);
-  if (run.conversation.fluid && run.conversation.fluid->name == name) run.conversation.fluid->new_threads = threads;
-  for (SolidSide& side : run.conversation.solids)
-    if (side.name == name) side.new_threads = threads;
-}
-
-/// The cores to share are those that this process was given. Processes whose threads the scene fixes keep them.
-void begin_balance(Run& run, const std::vector<std::string>& names) {
-  const int cores = compute::threads();
-  std::map<std::string, int> threads{{"coupler", cores}};
-  for (const std::string& name : names)
-    if (const auto own = run.scene.participants.find(name); own == run.scene.participants.end() || own->second.threads == 0)
-      threads[name] = first_threads(name, cores);
-  run.balance.emplace(cores, threads);
-  for (const auto& [name, count] : threads) suggest_threads(run, name, count);
-  run.span_began = std::chrono::steady_clock::now();
-}
-
-/// Tells the balance how long the windows of the span that ended took, and passes on what it wants to try.
-void balance_threads(Run& run) {
-  const auto now = std::chrono::steady_clock::now();
-  const std::chrono::duration<double> passed = now - std::exchange(run.span_began, now);
-  const long windows = run.keeper.window + 1 - std::exchange(run.span_window, run.keeper.window + 1);
-  if (run.keeper.free()) return;
-  for (const std::string& name : run.balance->note(passed.count() / static_cast<double>(windows)))
-    suggest_threads(run, name, run.balance->threads(name));
-}
-
-void plan_next_span(Run& run) {
-  refresh_limits(run);
-  const SpanPlan plan = plan_span(run.limits);
-  run.planned_step = plan.step;
-  run.keeper.windows_left = plan.windows;
-  run.keeper.span_start = run.keeper.time;
-  watch_step(run);
-}
-
-/// Bounds the span by the lag of the fluid's loads on the lightest wall there is.
-void bound_lag(Run& run, const geometry::CutCells& cells) {
-  const LightestWall wall = lightest_wall(run.conversation, cells);
-  const double limit = lag_limit(wall, run.scene);
-  if (limit < 0.8 * run.logged_lag_limit) {
-    run.logged_lag_limit = limit;
-    const geometry::GridLines& grid = run.conversation.fluid->grid;
-    const auto position = grid.cell_position(wall.cell);
-    spdlog::info("t = {:.4e} s: lag of fluid loads bounds the span to {:.2e} s: {} of {:.3f} kg/m^2 in the cell at ({:.4f}, {:.4f}, {:.4f}) m",
-                 run.keeper.time, limit, wall.body == Body::ice ? "ice" : "vehicle", wall.areal_mass,
-                 grid.lines[0][position[0]], grid.lines[1][position[1]], grid.lines[2][position[2]]);
-  }
-  run.limits.lag_limit = std::min(limit, run.slowest_answer);
-}
 
 /// Cuts the grid where the solids are now.
 const geometry::CutCells& cut_grid(Run& run) {
@@ -314,7 +193,6 @@ void take_surfaces(Run& run) {
   const auto lap = run.watch.lap("ledger");
   run.keeper.time += run.keeper.length;
   for (SolidSide& side : run.conversation.solids) {
-    run.work[static_cast<int>(side.body)].settle(side, run.ledger);
     run.topology_changed = run.topology_changed || side.topology_changed;
     side.add_to_mean(run.keeper.length);
   }
@@ -328,23 +206,13 @@ long end_or_frame(Run& run) {
   return run.frame++;
 }
 
-/// How long nothing can act between the participants, s: without fluid until the solids may touch.
-double quiet_time(Run& run) {
-  const SolidSide* vehicle = run.conversation.find(Body::vehicle);
-  const SolidSide* ice = run.conversation.find(Body::ice);
-  if (run.conversation.fluid || !vehicle || !ice || !vehicle->can_subdivide || !ice->can_subdivide) return 0;
-  const double until_frame = run.next_frame_time - run.keeper.time;
-  const double until_end = time_to_end(run.scene, run.keeper.time, run.monitor->nose(), run.monitor->speed());
-  return std::min({time_apart(*vehicle, *ice, run.scene.run.gravity), until_frame, until_end});
-}
-
-/// Length of the next window, which is not free when it takes `step`.
-double next_length(Run& run, double step, bool span_ends) {
-  const double quiet = span_ends ? quiet_time(run) : 0.0;
-  if (quiet < least_free_window * step) return step;
-  run.keeper.windows_left = 1;
-  ++run.keeper.free_windows;
-  return quiet;
+/// The solids work on meanwhile.
+void keep_books(Run& run, double acting_time) {
+  const auto lap = run.watch.lap("ledger");
+  for (const SolidSide& side : run.conversation.solids) run.work[static_cast<int>(side.body)].settle(side, run.ledger);
+  write_ledger(run, acting_time);
+  for (const SolidSide& side : run.conversation.solids)
+    run.work[static_cast<int>(side.body)].remember(side, acting_time);
 }
 
 /// Hands out the loads of this window and the length of the next one.
@@ -353,13 +221,14 @@ void give_loads(Run& run, bool span_ends, long frame) {
   const double length = next_length(run, next, span_ends);
   const double acting_time = run.keeper.acting_time(next);
   {
-    const auto lap = run.watch.lap("ledger");
+    const auto lap = run.watch.lap("fluid_loads");
     hand_on_fluid_impulse(run, acting_time);
-    write_ledger(run, acting_time);
-    for (SolidSide& side : run.conversation.solids) run.work[static_cast<int>(side.body)].remember(side, acting_time);
   }
-  const auto lap = run.watch.lap("messages");
-  send_loads(run.conversation, {run.keeper.window, length, length > next, !run.end.empty(), frame});
+  {
+    const auto lap = run.watch.lap("messages");
+    send_loads(run.conversation, {run.keeper.window, length, length > next, !run.end.empty(), frame});
+  }
+  keep_books(run, acting_time);
   ++run.keeper.window;
   run.keeper.step = next;
   run.keeper.length = length;

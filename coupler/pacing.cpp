@@ -1,0 +1,110 @@
+#include "coupler/pacing.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/compute/threads.hpp"
+#include "coupler/end_condition.hpp"
+#include "coupler/horizon.hpp"
+#include "coupler/stability_limits.hpp"
+
+namespace polynya::coupler {
+namespace {
+
+constexpr double least_free_window = 3;  // steps: shorter ones are not worth it
+
+/// A step that collapses would never reach the end: says what limits it, and stops when it is hopeless.
+void watch_step(Run& run) {
+  run.first_planned_step = std::max(run.first_planned_step, run.planned_step);
+  if (run.planned_step > run.first_planned_step / 20) return;
+  std::string solids;
+  for (const SolidSide& side : run.conversation.solids)
+    solids += fmt::format("{} {:.2e} s, ", side.name, side.stable_step);
+  const std::string limits = fmt::format("the window has fallen to {:.2e} s at t = {:.4e} s; stable steps: {}fluid {:.2e} s, lag of fluid loads {:.2e} s",
+                                         run.planned_step, run.keeper.time, solids, run.limits.fluid_stable, run.limits.lag_limit);
+  if (run.planned_step < run.first_planned_step / 1000) throw std::runtime_error(limits);
+  if (!run.step_warned) spdlog::warn("{}", limits);
+  run.step_warned = true;
+}
+
+void suggest_threads(Run& run, const std::string& name, int threads) {
+  if (name == "coupler") return compute::use_threads(threads);
+  if (run.conversation.fluid && run.conversation.fluid->name == name) run.conversation.fluid->new_threads = threads;
+  for (SolidSide& side : run.conversation.solids)
+    if (side.name == name) side.new_threads = threads;
+}
+
+/// How long nothing can act between the participants, s: without fluid until the solids may touch.
+double quiet_time(Run& run) {
+  const SolidSide* vehicle = run.conversation.find(Body::vehicle);
+  const SolidSide* ice = run.conversation.find(Body::ice);
+  if (run.conversation.fluid || !vehicle || !ice || !vehicle->can_subdivide || !ice->can_subdivide) return 0;
+  const double until_frame = run.next_frame_time - run.keeper.time;
+  const double until_end = time_to_end(run.scene, run.keeper.time, run.monitor->nose(), run.monitor->speed());
+  return std::min({time_apart(*vehicle, *ice, run.scene.run.gravity), until_frame, until_end});
+}
+
+}  // namespace
+
+void refresh_limits(Run& run) {
+  run.limits.solid_stable = 1e300;
+  for (const SolidSide& side : run.conversation.solids)
+    run.limits.solid_stable = std::min(run.limits.solid_stable, side.stable_step);
+  if (run.conversation.fluid) run.limits.fluid_stable = run.conversation.fluid->stable_step;
+  if (!(run.limits.solid_stable > 0)) throw std::runtime_error("a solid reports a stable step that is not positive");
+}
+
+void plan_next_span(Run& run) {
+  refresh_limits(run);
+  const SpanPlan plan = plan_span(run.limits);
+  run.planned_step = plan.step;
+  run.keeper.windows_left = plan.windows;
+  run.keeper.span_start = run.keeper.time;
+  watch_step(run);
+}
+
+void bound_lag(Run& run, const geometry::CutCells& cells) {
+  const LightestWall wall = lightest_wall(run.conversation, cells);
+  const double limit = lag_limit(wall, run.scene);
+  if (limit < 0.8 * run.logged_lag_limit) {
+    run.logged_lag_limit = limit;
+    const geometry::GridLines& grid = run.conversation.fluid->grid;
+    const auto position = grid.cell_position(wall.cell);
+    spdlog::info("t = {:.4e} s: lag of fluid loads bounds the span to {:.2e} s: {} of {:.3f} kg/m^2 in the cell at ({:.4f}, {:.4f}, {:.4f}) m",
+                 run.keeper.time, limit, wall.body == Body::ice ? "ice" : "vehicle", wall.areal_mass,
+                 grid.lines[0][position[0]], grid.lines[1][position[1]], grid.lines[2][position[2]]);
+  }
+  run.limits.lag_limit = std::min(limit, run.slowest_answer);
+}
+
+double next_length(Run& run, double step, bool span_ends) {
+  const double quiet = span_ends ? quiet_time(run) : 0.0;
+  if (quiet < least_free_window * step) return step;
+  run.keeper.windows_left = 1;
+  ++run.keeper.free_windows;
+  return quiet;
+}
+
+void begin_balance(Run& run, const std::vector<std::string>& names) {
+  const int cores = compute::threads();
+  std::map<std::string, int> threads{{"coupler", cores}};
+  for (const std::string& name : names)
+    if (const auto own = run.scene.participants.find(name); own == run.scene.participants.end() || own->second.threads == 0)
+      threads[name] = first_threads(name, cores);
+  run.balance.emplace(cores, threads);
+  for (const auto& [name, count] : threads) suggest_threads(run, name, count);
+  run.span_began = std::chrono::steady_clock::now();
+}
+
+void balance_threads(Run& run) {
+  const auto now = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> passed = now - std::exchange(run.span_began, now);
+  const long windows = run.keeper.window + 1 - std::exchange(run.span_window, run.keeper.window + 1);
+  if (run.keeper.free()) return;
+  for (const std::string& name : run.balance->note(passed.count() / static_cast<double>(windows)))
+    suggest_threads(run, name, run.balance->threads(name));
+}
+
+}  // namespace polynya::coupler

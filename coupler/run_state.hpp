@@ -1,0 +1,57 @@
+#pragma once
+#include <array>
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "core/compute/timer.hpp"
+#include "core/contact/penalty_contact.hpp"
+#include "coupler/conversation.hpp"
+#include "coupler/ledger.hpp"
+#include "coupler/monitor.hpp"
+#include "coupler/overlap_exchange.hpp"
+#include "coupler/thread_balance.hpp"
+#include "coupler/time_keeper.hpp"
+
+namespace polynya::coupler {
+
+/// Everything that lives as long as the run.
+struct Run {
+  const scene::Scene& scene;
+  std::string folder;
+  Conversation conversation;
+  compute::Stopwatch watch;
+  TimeKeeper keeper;
+  StepLimits limits;
+  Ledger ledger;
+  LedgerFile ledger_file;
+  std::array<WorkMeter, body_count> work;
+  contact::PenaltyContact contact;
+  bool contact_ready = false, topology_changed = false;
+  std::optional<OverlapExchange> overlap;
+  std::optional<Monitor> monitor;
+  double planned_step = 0, first_planned_step = 0, next_frame_time = 0;
+  double logged_lag_limit = 1;  ///< s
+  double slowest_answer = 1;    ///< s, longest span that lets the fluid follow the fastest motion of the intact ice
+  bool step_warned = false;
+  long frame = 0, cuts = 0;
+  std::string end;  ///< why the run ends; empty while it goes on
+  std::optional<ThreadBalance> balance;
+  std::chrono::steady_clock::time_point span_began;  ///< on the wall
+  long span_window = 0;                              ///< number of the span's first window
+
+  Run(const scene::Scene& s, std::string run_folder, exchange::Hub& hub)
+      : scene(s), folder(std::move(run_folder)), conversation{hub, {}, std::nullopt}, ledger_file(folder),
+        contact(contact_law(s)) {}
+
+  static contact::PenaltyLaw contact_law(const scene::Scene& s) {
+    contact::PenaltyLaw law;
+    law.friction = s.effect("friction") ? s.contact.friction : 0.0;
+    law.stiffness_factor = s.contact.stiffness_factor;
+    law.depth_limit = s.resolution.ice_element;
+    law.mirror = {s.symmetry == scene::Symmetry::quarter, s.symmetry != scene::Symmetry::full};
+    return law;
+  }
+};
+
+}  // namespace polynya::coupler
