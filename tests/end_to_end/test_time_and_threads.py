@@ -127,7 +127,7 @@ class Flight(unittest.TestCase):
         windows = [w for w, t in zip(rows["window"], rows["time"]) if t < contact - span][-1]
         steps = contact / summary["participants"]["structure"]["smallest_step"]
         self.assertLess(windows, 0.02 * steps)
-        self.assertLess(max(rows["momentum_error"][: len(before)]), 1.01 * gravity * contact / speed)
+        self.assertLess(max(rows["momentum_error"]), 1e-9)
         self.assertLess(max(rows["energy_error"]), 1e-3)
 
 
