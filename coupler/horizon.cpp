@@ -12,7 +12,7 @@ constexpr double share_of_gap = 0.5;
 
 /// Along one axis: where a surface ends, contact radii included, and how fast it moves at most either way.
 struct Extent {
-  double low = infinity, high = -infinity;      ///< m
+  double low = infinity, high = -infinity;         ///< m
   double slowest = infinity, fastest = -infinity;  ///< m/s, of any vertex
 };
 

@@ -22,8 +22,9 @@ void watch_step(Run& run) {
   std::string solids;
   for (const SolidSide& side : run.conversation.solids)
     solids += fmt::format("{} {:.2e} s, ", side.name, side.stable_step);
-  const std::string limits = fmt::format("the window has fallen to {:.2e} s at t = {:.4e} s; stable steps: {}fluid {:.2e} s, lag of fluid loads {:.2e} s",
-                                         run.planned_step, run.keeper.time, solids, run.limits.fluid_stable, run.limits.lag_limit);
+  const std::string limits = fmt::format(
+      "the window has fallen to {:.2e} s at t = {:.4e} s; stable steps: {}fluid {:.2e} s, lag of fluid loads {:.2e} s",
+      run.planned_step, run.keeper.time, solids, run.limits.fluid_stable, run.limits.lag_limit);
   if (run.planned_step < run.first_planned_step / 1000) throw std::runtime_error(limits);
   if (!run.step_warned) spdlog::warn("{}", limits);
   run.step_warned = true;
@@ -72,9 +73,11 @@ void bound_lag(Run& run, const geometry::CutCells& cells) {
     run.logged_lag_limit = limit;
     const geometry::GridLines& grid = run.conversation.fluid->grid;
     const auto position = grid.cell_position(wall.cell);
-    spdlog::info("t = {:.4e} s: lag of fluid loads bounds the span to {:.2e} s: {} of {:.3f} kg/m^2 in the cell at ({:.4f}, {:.4f}, {:.4f}) m",
-                 run.keeper.time, limit, wall.body == Body::ice ? "ice" : "vehicle", wall.areal_mass,
-                 grid.lines[0][position[0]], grid.lines[1][position[1]], grid.lines[2][position[2]]);
+    spdlog::info(
+        "t = {:.4e} s: lag of fluid loads bounds the span to {:.2e} s: {} of {:.3f} kg/m^2 in the cell at ({:.4f}, "
+        "{:.4f}, {:.4f}) m",
+        run.keeper.time, limit, wall.body == Body::ice ? "ice" : "vehicle", wall.areal_mass, grid.lines[0][position[0]],
+        grid.lines[1][position[1]], grid.lines[2][position[2]]);
   }
   run.limits.lag_limit = std::min(limit, run.slowest_answer);
 }
@@ -91,7 +94,8 @@ void begin_balance(Run& run, const std::vector<std::string>& names) {
   const int cores = compute::threads();
   std::map<std::string, int> threads{{"coupler", cores}};
   for (const std::string& name : names)
-    if (const auto own = run.scene.participants.find(name); own == run.scene.participants.end() || own->second.threads == 0)
+    if (const auto own = run.scene.participants.find(name);
+        own == run.scene.participants.end() || own->second.threads == 0)
       threads[name] = first_threads(name, cores);
   run.balance.emplace(cores, threads);
   for (const auto& [name, count] : threads) suggest_threads(run, name, count);

@@ -41,7 +41,10 @@ struct Run {
   long span_window = 0;                              ///< number of the span's first window
 
   Run(const scene::Scene& s, std::string run_folder, exchange::Hub& hub)
-      : scene(s), folder(std::move(run_folder)), conversation{hub, {}, std::nullopt}, ledger_file(folder),
+      : scene(s),
+        folder(std::move(run_folder)),
+        conversation{hub, {}, std::nullopt},
+        ledger_file(folder),
         contact(contact_law(s)) {}
 
   static contact::PenaltyLaw contact_law(const scene::Scene& s) {

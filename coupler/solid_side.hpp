@@ -18,7 +18,7 @@ struct SolidSide {
   Body body = Body::vehicle;
   double stable_step = 0;  ///< s
   bool can_subdivide = false;  ///< may take steps of its own within a free window
-  int new_threads = 0;     ///< number of threads to suggest with the next loads; 0: nothing new
+  int new_threads = 0;         ///< number of threads to suggest with the next loads; 0: nothing new
   Account account;
 
   std::vector<std::int64_t> ids;

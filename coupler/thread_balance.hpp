@@ -30,9 +30,9 @@ class ThreadBalance {
   std::vector<Trial> planned_;  ///< the last one comes next
   std::string tried_;           ///< process on trial; empty: the present shares are measured
   int threads_before_ = 0;
-  double time_ = 0;             ///< s per window with the present shares
+  double time_ = 0;  ///< s per window with the present shares
   std::vector<double> samples_;
-  long skip_ = 0;               ///< spans that do not count
+  long skip_ = 0;  ///< spans that do not count
 };
 
 /// What the processes start with: fluid and coupler work while all others wait and get every core, the solids work at

@@ -56,7 +56,8 @@ nlohmann::json findings(const IceRun& run, const std::optional<BendingRig>& rig,
   found["end_reason"] = "time";
   found["end_time"] = run.ice.solid.time;
   found["energy_error"] = there > 0 ? std::abs(a.balance()) / there : 0.0;
-  if (rig) found.update({{"peak_load", peak_load}, {"deflection", rig->deflection}, {"most_damage", most_damage(run.ice)}});
+  if (rig)
+    found.update({{"peak_load", peak_load}, {"deflection", rig->deflection}, {"most_damage", most_damage(run.ice)}});
   return found;
 }
 

@@ -94,7 +94,8 @@ double advance_freely(IceRun& run, IceSurface& surface, double step, double left
 
 /// What remains of a window after its positions are known, and of the next one, if it is free, all but the last step;
 /// returns the length of the step that comes now, 0 to finish.
-double finish_window(IceRun& run, exchange::Participant& participant, IceSurface& surface, IceFrames& frames, double dt) {
+double finish_window(IceRun& run, exchange::Participant& participant, IceSurface& surface, IceFrames& frames,
+                     double dt) {
   internal_forces(run.ice, dt);
   Message loads;
   std::vector<double> node_loads, particle_loads;

@@ -71,7 +71,7 @@ def walk(waits: dict[str, list[Wait]]) -> Iterator[Stretch]:
 
 
 def summary(folder: Path, processes: dict[str, dict]) -> dict | None:
-    """Seconds on the critical path per process and of messages, and the share that is exchange; None if not all told."""
+    """Seconds on the critical path per process and of messages, and the share of exchange; None if not all told."""
     waits = read_waits(folder, list(processes))
     if COUPLER not in waits or set(waits) != set(processes) or not all(waits.values()):
         return None

@@ -47,7 +47,7 @@ class Child:
         return self.plan.name
 
     def note_memory(self) -> None:
-        """The largest resident size so far. What the system tells at the end counts the launcher before the start in."""
+        """The largest resident size so far. What the system tells at the end includes the launcher before the start."""
         try:
             status = Path(f"/proc/{self.popen.pid}/status").read_text(encoding="utf-8")
         except OSError:

@@ -4,7 +4,9 @@
 namespace polynya::compute {
 
 /// Threads that parallel loops use from now on.
-inline int threads() { return omp_get_max_threads(); }
+inline int threads() {
+  return omp_get_max_threads();
+}
 
 /// Takes this many threads from now on; anything below 1 changes nothing. Results do not depend on it.
 inline void use_threads(int count) {

@@ -6,8 +6,8 @@
 
 namespace polynya::compute {
 
-/// Wall and processor time in seconds spent under named headings ("remap", "contact", ...). A lap within a lap counts for
-/// the inner heading only, so headings add up to no more than the time that passed.
+/// Wall and processor time in seconds spent under named headings ("remap", "contact", ...). A lap within a lap counts
+/// for the inner heading only, so headings add up to no more than the time that passed.
 class Stopwatch {
  public:
   /// The time from construction to destruction belongs to one heading, less that of laps within.

@@ -70,10 +70,9 @@ double ProcessReport::peak_memory() {
 }
 
 void ProcessReport::write(const std::string& run_folder, const std::string& name) const {
-  const nlohmann::json report = {{"wall_time", wall_time()},       {"cpu_time", cpu_time()},
-                                 {"waiting_time", waiting_time()}, {"threads", threads},
-                                 {"peak_memory", peak_memory()},   {"seconds", seconds},
-                                 {"cpu_seconds", cpu_seconds},     {"counts", counts}};
+  const nlohmann::json report = {
+      {"wall_time", wall_time()},     {"cpu_time", cpu_time()}, {"waiting_time", waiting_time()}, {"threads", threads},
+      {"peak_memory", peak_memory()}, {"seconds", seconds},     {"cpu_seconds", cpu_seconds},     {"counts", counts}};
   replace_text(run_folder + "/logs/" + name + ".json", report.dump(1) + "\n");
   if (!waits.empty()) replace_text(run_folder + "/logs/" + name + "_waits.csv", table_of(waits));
 }

@@ -153,7 +153,8 @@ std::vector<KeyRule> all_rules() {
   for (const std::string name : {"structure", "ice", "fluid"}) {
     rules.push_back(text("participants." + name + ".command", "", "program to start instead of the project's own"));
     rules.push_back(text("participants." + name + ".launch", "", "put in front of the command, e.g. \"srun -n 64\""));
-    rules.push_back(integer("participants." + name + ".threads", "0", "for all of the run; 0: the coupler shares the cores", 0));
+    rules.push_back(
+        integer("participants." + name + ".threads", "0", "for all of the run; 0: the coupler shares the cores", 0));
   }
   return rules;
 }

@@ -50,8 +50,8 @@ def draw(waits: dict[str, list[Wait]], axes: pyplot.Axes) -> None:
                 at = 1e3 * (wait.end - start)
                 axes.annotate("", (at, row[name] + 0.3 * sign(row[wait.whom] - row[name])),
                               (at, row[wait.whom] - 0.3 * sign(row[wait.whom] - row[name])),
-                              arrowprops={"arrowstyle": "-|>", "color": style.INK, "lw": 0.7, "shrinkA": 0, "shrinkB": 0,
-                                          "mutation_scale": 7})
+                              arrowprops={"arrowstyle": "-|>", "color": style.INK, "lw": 0.7, "shrinkA": 0,
+                                          "shrinkB": 0, "mutation_scale": 7})
                 word = MESSAGES[wait.whom, name]
                 if word not in said:
                     other = wait.whom if name == "coupler" else name

@@ -43,8 +43,8 @@ TEST(EndCondition, StoppedVehicleAndLatestTimeEndEveryRun) {
 TEST(EndCondition, NothingEndsTheRunBeforeTheTimeThatIsForetold) {
   scene::Scene scene = thin_ice();
   scene.run.gravity = 9.81;
-  EXPECT_DOUBLE_EQ(coupler::time_to_end(scene, 0.25e-3, -0.5, 40), 0.75e-3);         // latest end
-  EXPECT_NEAR(coupler::time_to_end(scene, 0, 0.01, 40), 0.02 / 40, 1e-15);           // a diameter above the ice
-  EXPECT_NEAR(coupler::time_to_end(scene, 0, 0.01, 1e-3), 1e-3 / 9.81, 1e-15);       // weight stops it before
+  EXPECT_DOUBLE_EQ(coupler::time_to_end(scene, 0.25e-3, -0.5, 40), 0.75e-3);    // latest end
+  EXPECT_NEAR(coupler::time_to_end(scene, 0, 0.01, 40), 0.02 / 40, 1e-15);      // a diameter above the ice
+  EXPECT_NEAR(coupler::time_to_end(scene, 0, 0.01, 1e-3), 1e-3 / 9.81, 1e-15);  // weight stops it before
   EXPECT_EQ(coupler::time_to_end(scene, 0, 0.05, 40), 0);
 }

@@ -84,7 +84,8 @@ TEST(Horizon, ContactNeverBeginsWithinItEvenIfAllSpeedsDouble) {
     if (horizon == 0) continue;
     ++apart;
     for (int k = 0; k <= 20; ++k)
-      for (const double growth : {1.0, 2.0}) ASSERT_FALSE(meet(a, b, 0.999999 * horizon * k / 20, growth)) << "trial " << trial;
+      for (const double growth : {1.0, 2.0})
+        ASSERT_FALSE(meet(a, b, 0.999999 * horizon * k / 20, growth)) << "trial " << trial;
   }
   EXPECT_GT(apart, 10000);
 }

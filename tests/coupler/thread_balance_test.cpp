@@ -10,7 +10,8 @@ using namespace polynya;
 namespace {
 
 /// Feeds the balance with windows of a machine that is known; returns after so many spans.
-void run(coupler::ThreadBalance& balance, int spans, const std::function<double(const coupler::ThreadBalance&)>& window) {
+void run(coupler::ThreadBalance& balance, int spans,
+         const std::function<double(const coupler::ThreadBalance&)>& window) {
   for (int span = 0; span < spans; ++span) {
     const double disturbed = span % 7 == 0 ? 5.0 : 1.0;  // a frame is written
     balance.note(disturbed * window(balance) * (1 + 0.01 * std::sin(3.1 * span)));

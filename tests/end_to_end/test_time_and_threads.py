@@ -11,13 +11,15 @@ from runs import ROOT, polynya, scratch, series, summary_of
 from test_loss_of_a_process import processes_of, wait_until
 
 # A small part of the base scene in coarse cells that strikes the ice within a second or two of wall time.
-SMALL = [word for setting in ("resolution.cell=4 mm", "resolution.vehicle_element=4 mm", "vehicle.nose_position=-0.2 mm",
-                              "ice.length=80 mm", "ice.width=80 mm", "run.end_time=0.02 ms") for word in ("--set", setting)]
+SETTINGS = ("resolution.cell=4 mm", "resolution.vehicle_element=4 mm", "vehicle.nose_position=-0.2 mm",
+            "ice.length=80 mm", "ice.width=80 mm", "run.end_time=0.02 ms")
+SMALL = [word for setting in SETTINGS for word in ("--set", setting)]
 SERIES = ("coupler.csv", "ledger.csv")
 
 
 def command(run_folder, *more):
-    return [str(ROOT / "polynya"), "run", "cases/water_exit", *SMALL, "--out", run_folder, "--json", "--no-pictures", *more]
+    return [str(ROOT / "polynya"), "run", "cases/water_exit", *SMALL, "--out", run_folder, "--json", "--no-pictures",
+            *more]
 
 
 def results(run_folder):
@@ -55,8 +57,8 @@ class SameBits(unittest.TestCase):
     def test_whichever_process_is_slow(self):
         for program in ("structure_solver", "ice_solver", "fluid_solver", "coupler"):
             run_folder = f"{self.folder.name}/slow_{program}"
-            run = subprocess.Popen(command(run_folder, "--threads", "2"), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   text=True, stdin=subprocess.DEVNULL)
+            run = subprocess.Popen(command(run_folder, "--threads", "2"), stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True, stdin=subprocess.DEVNULL)
             progress = Path(run_folder) / "series/coupler.csv"
             self.assertTrue(wait_until(lambda: progress.exists() and progress.read_text().count("\n") > 5, 60))
             held = 0
@@ -98,7 +100,7 @@ class WhereTheTimeGoes(unittest.TestCase):
         self.assertTrue(0 < self.summary["exchange_share"] < 1)
 
     def test_memory_is_that_of_the_process_not_of_the_launcher(self):
-        """The launcher holds numpy and more, some 55 MB, which getrusage would pass on; this coupler needs about 12 MB."""
+        """The launcher holds numpy and more, some 55 MB, which getrusage would pass on; the coupler needs about 12 MB."""
         self.assertLess(self.summary["processes"]["coupler"]["peak_memory"], 30e6)
         self.assertGreater(self.summary["processes"]["coupler"]["peak_memory"], 3e6)
 
@@ -120,7 +122,7 @@ class Flight(unittest.TestCase):
         contact = (speed - (speed**2 - 2 * gravity * gap)**0.5) / gravity
         span = 0.5e-6  # rows are written once per span
         self.assertAlmostEqual(summary["first_contact_time"], contact, delta=span)
-        before = [(t, v) for t, v, f in zip(rows["time"], rows["vehicle_speed"], rows["contact_force"]) if t < contact - span]
+        before = [(t, v) for t, v in zip(rows["time"], rows["vehicle_speed"]) if t < contact - span]
         self.assertEqual(max(map(abs, rows["contact_force"][: len(before)])), 0)
         for t, v in before:
             self.assertAlmostEqual(v, speed - gravity * t, delta=gravity * 1e-7)  # half a step later than t

@@ -33,7 +33,7 @@ class CriticalPath(unittest.TestCase):
     def test_follows_whoever_was_waited_for(self):
         self.write(WAITS)
         path = self.summary()["critical_path"]
-        # From the end: ice 9.1 - 11.1, its message woken by the coupler 8.1 - 9 (0.1 on its way), the fluid 4.1 - 8.1 ...
+        # From the end: ice 9.1 - 11.1, woken by the coupler's message, coupler 8.1 - 9, fluid 4.1 - 8.1 ...
         self.assertAlmostEqual(path["ice"], 2.0 + 2.0 + 0.6)  # 9.1 - 11.1, 1.1 - 3.1, 0.2 - 0.8
         self.assertAlmostEqual(path["fluid"], 4.0)
         self.assertAlmostEqual(path["coupler"], 0.9 + 0.9 + 0.1)  # 8.1 - 9, 3.1 - 4, 0.9 - 1

@@ -174,7 +174,8 @@ TEST(StructureConversation, FreeWindowIsTheSameAsWindowsOfItsOwnStepsWithoutLoad
   for (const char* name : {"positions", "velocities", "account"}) {
     const auto a = free.view<double>(name), b = bound.view<double>(name);
     ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-9 * std::abs(b[i]) + 1e-13) << name << ' ' << i;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      EXPECT_NEAR(a[i], b[i], 1e-9 * std::abs(b[i]) + 1e-13) << name << ' ' << i;
   }
   EXPECT_NEAR(free.header.at("time").get<double>(), bound.header.at("time").get<double>(), 1e-15);
 }
