@@ -185,6 +185,7 @@ Scene resolve(const std::filesystem::path& path, const ResolveOptions& options) 
     values.fail("effects.fluid", "without the fluid nothing is left of the scene; allowed here: auto, on");
   drop_unused_materials(scene);
   read_participants(values, scene);
+  read_record(values, scene);
   return scene;
 }
 

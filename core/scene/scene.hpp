@@ -110,6 +110,17 @@ struct Contact {
   double stiffness_factor = 0;  ///< of the bound m / dt_window^2
 };
 
+/// The interface on record (core/exchange/recorder.hpp); only what differs from "all of it" is there.
+struct Record {
+  std::string participants;     ///< names between commas; empty: all
+  double from = 0;              ///< s
+  std::optional<double> until;  ///< s
+  /// m; sides of the box that vertices, cells and faces must lie in.
+  std::optional<double> x_min, x_max, y_min, y_max, z_min, z_max;
+
+  bool has_region() const { return x_min || x_max || y_min || y_max || z_min || z_max; }
+};
+
 struct ParticipantCommand {
   std::string command;  ///< empty: the project's own executable
   std::string launch;   ///< put in front of the command
@@ -125,6 +136,7 @@ struct Scene {
   std::optional<Ice> ice;
   std::optional<Fluid> fluid;
   Contact contact;
+  std::optional<Record> record;  ///< absent: nothing is recorded
   std::map<std::string, MaterialCard> materials;
   std::map<std::string, Effect> effects;  ///< "fluid", "conversion", "friction", ...: all of docs/scene.md, always
   std::map<std::string, ParticipantCommand> participants;  ///< those this scene needs of "structure", "ice", "fluid"

@@ -80,6 +80,14 @@ void members(Part& p, Visit&& visit) {
 }
 
 template <class Part, class Visit>
+requires std::is_same_v<std::remove_const_t<Part>, Record>
+void members(Part& p, Visit&& visit) {
+  visit("participants", p.participants), visit("from", p.from), visit("until", p.until);
+  visit("x_min", p.x_min), visit("x_max", p.x_max), visit("y_min", p.y_min), visit("y_max", p.y_max);
+  visit("z_min", p.z_min), visit("z_max", p.z_max);
+}
+
+template <class Part, class Visit>
 requires std::is_same_v<std::remove_const_t<Part>, MaterialCard>
 void members(Part& p, Visit&& visit) {
   visit("law", p.law), visit("values", p.values), visit("origin", p.origin);
@@ -102,8 +110,8 @@ requires std::is_same_v<std::remove_const_t<Part>, Scene>
 void members(Part& p, Visit&& visit) {
   visit("title", p.title), visit("name", p.name), visit("level", p.level), visit("symmetry", p.symmetry);
   visit("run", p.run), visit("resolution", p.resolution), visit("vehicle", p.vehicle), visit("ice", p.ice);
-  visit("fluid", p.fluid), visit("contact", p.contact), visit("materials", p.materials);
-  visit("effects", p.effects), visit("participants", p.participants);
+  visit("fluid", p.fluid), visit("contact", p.contact), visit("record", p.record);
+  visit("materials", p.materials), visit("effects", p.effects), visit("participants", p.participants);
 }
 
 template <class T>

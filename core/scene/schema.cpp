@@ -145,9 +145,24 @@ std::vector<KeyRule> fluid_rules() {
   return rules;
 }
 
+std::vector<KeyRule> record_rules() {
+  std::vector<KeyRule> rules{
+      choice("record.interface", {"true", "false"}, "false",
+             "write down every message between coupler and solvers, RUN/record (docs/debugging.md)"),
+      text("record.participants", "all", "whose messages, e.g. \"ice\" or \"structure, ice\""),
+      number("record.from", dim::time, "0", "first time on record; later than 0: to look at, not to replay", 0),
+      positive("record.until", dim::time, "auto", "last time on record; auto: the end"),
+  };
+  for (const std::string side : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"})
+    rules.push_back(number("record.region." + side, dim::length, "auto",
+                           "side of the box that vertices, cells and faces on record lie in, to look at, not to "
+                           "replay; auto: everything"));
+  return rules;
+}
+
 std::vector<KeyRule> all_rules() {
   auto rules = general_rules();
-  for (auto& part : {solid_rules(), fluid_rules()}) rules.insert(rules.end(), part.begin(), part.end());
+  for (auto& part : {solid_rules(), fluid_rules(), record_rules()}) rules.insert(rules.end(), part.begin(), part.end());
   for (const auto& name : effect_names())
     rules.push_back(choice("effects." + name, {"auto", "on", "off"}, "auto", "see the effects below"));
   for (const std::string name : {"structure", "ice", "fluid"}) {

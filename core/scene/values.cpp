@@ -183,6 +183,12 @@ std::string Values::text(const std::string& path) const {
     if (rule.fallback == "required") fail(path, "missing; must be " + allowed(rule));
     return rule.fallback;
   }
+  // true and false may be choices, and are written without quotes then.
+  if (const auto* flag = std::get_if<bool>(&found->second.value); flag && rule.kind == Kind::choice) {
+    const std::string word = *flag ? "true" : "false";
+    for (const auto& choice : rule.choices)
+      if (choice == word) return word;
+  }
   const auto* text = std::get_if<std::string>(&found->second.value);
   if (!text) fail(path, "must be " + allowed(rule));
   if (rule.kind != Kind::choice) return *text;
