@@ -11,6 +11,7 @@
 #include "coupler/conversation.hpp"
 #include "coupler/end_condition.hpp"
 #include "coupler/pacing.hpp"
+#include "coupler/recording.hpp"
 #include "coupler/run_state.hpp"
 #include "coupler/stability_limits.hpp"
 
@@ -293,12 +294,15 @@ void run_coupled(const scene::Scene& scene, const std::string& run_folder, const
                  const std::string& run_id, double connect_timeout) {
   const std::vector<std::string> names = expected_participants(scene);
   exchange::Hub hub(endpoint, run_id, names);
+  const auto recorder = start_recorder(scene, run_folder, run_id, hub);
   try {
     hub.await_participants(connect_timeout);
     Run run(scene, run_folder, hub);
     begin(run, names);
     while (run.end.empty()) advance_window(run);
-    write_reports(run, part(run));
+    const auto last_words = part(run);
+    if (recorder) finish_recorder(*recorder);
+    write_reports(run, last_words);
     spdlog::info("end: {} at t = {:.6e} s after {} windows and {} spans", run.end, run.keeper.time, run.keeper.window,
                  run.keeper.span);
   } catch (const std::exception& error) {

@@ -8,6 +8,8 @@
 
 #include "core/exchange/environment.hpp"
 #include "core/exchange/errors.hpp"
+#include "core/exchange/record_reader.hpp"
+#include "core/exchange/replay_options.hpp"
 #include "fluid_solver/cards.hpp"
 #include "fluid_solver/conversation.hpp"
 #include "fluid_solver/tube.hpp"
@@ -18,7 +20,10 @@ using namespace polynya;
 
 struct Options {
   std::string scene, out, endpoint, run, name = "fluid";
+  exchange::Replay replay;
   int threads = 0;
+
+  bool alone() const { return endpoint.empty() && !replay.wanted(); }
 };
 
 /// Reads the command line; a value means that the process ends with this exit code.
@@ -29,6 +34,7 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   auto* connect = app.add_option("--connect", options.endpoint, "the coupler's endpoint");
   app.add_option("--run", options.run, "identity of the run, the coupler's")->needs(connect);
   app.add_option("--name", options.name, "name under which the coupler expects this process");
+  exchange::add_replay_options(app, options.replay);
   app.add_option("--threads", options.threads, "threads to use; 0: as many as OpenMP offers")->check(CLI::NonNegativeNumber);
   try {
     app.parse(argc, argv);
@@ -48,7 +54,7 @@ void start_log(const Options& options) {
 fluid::Fluid build(const Options& options, const scene::Scene& scene) {
   if (!scene.fluid) throw std::runtime_error(options.scene + ": the scene has no fluid");
   const bool tube = scene.fluid->tube.has_value();
-  if (tube != options.endpoint.empty()) {
+  if (tube != options.alone()) {
     throw std::runtime_error(options.scene + (tube ? ": a tube runs alone, without --connect"
                                                    : ": water and air move around solids; give --connect, or a scene with [tube]"));
   }
@@ -59,7 +65,7 @@ fluid::Fluid build(const Options& options, const scene::Scene& scene) {
 
 void run(const Options& options, const scene::Scene& scene, fluid::Fluid& built) {
   fluid::Output output(options.out, options.name, scene.run.end_time, scene);
-  if (options.endpoint.empty()) {
+  if (options.alone()) {
     try {
       const double error = fluid::run_tube(scene, built, output);
       if (error >= 0) spdlog::info("mean error of the density: {:.4f} of its mean", error);
@@ -72,7 +78,7 @@ void run(const Options& options, const scene::Scene& scene, fluid::Fluid& built)
     spdlog::info("finished: {}", output.summary(built).dump());
     return;
   }
-  exchange::Participant coupler({options.endpoint, options.run, options.name});
+  exchange::Participant coupler({options.endpoint, options.run, options.name, 60, options.replay});
   const auto close = [&] { output.close(built, coupler.waits().intervals()); };
   try {
     fluid::run_coupled(scene, built, coupler, output);
@@ -100,6 +106,7 @@ int main(int argc, char** argv) {
   std::optional<fluid::Fluid> built;
   try {
     scene = scene::load_resolved_scene(options.scene);
+    if (options.replay.wanted()) exchange::check_replayable(options.replay.record, options.name);
     start_log(options);
     built.emplace(build(options, scene));
   } catch (const std::exception& error) {
@@ -108,6 +115,9 @@ int main(int argc, char** argv) {
   }
   try {
     run(options, scene, *built);
+    return 0;
+  } catch (const exchange::ReplayEnded& verdict) {
+    std::printf("%s\n", verdict.what());
     return 0;
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());

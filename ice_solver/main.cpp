@@ -10,6 +10,8 @@
 
 #include "core/compute/threads.hpp"
 #include "core/exchange/environment.hpp"
+#include "core/exchange/record_reader.hpp"
+#include "core/exchange/replay_options.hpp"
 #include "core/results/durable_file.hpp"
 #include "core/results/process_report.hpp"
 #include "ice_solver/run.hpp"
@@ -21,6 +23,7 @@ using namespace polynya;
 
 struct Options {
   std::string scene, out, endpoint, run, name = "ice";
+  exchange::Replay replay;
   int threads = 0;  // 0: what OpenMP finds
 };
 
@@ -57,13 +60,15 @@ int work(const Options& options, ice::IceRun& run) {
   std::optional<exchange::Participant> participant;
   int code = 0;
   try {
-    if (options.endpoint.empty()) {
+    if (options.endpoint.empty() && !options.replay.wanted()) {
       results::replace_text(options.out + "/" + options.name + "_summary.json", ice::run_alone(run).dump(1) + "\n");
     } else {
-      participant.emplace(exchange::Participant::Options{options.endpoint, options.run, options.name});
+      participant.emplace(exchange::Participant::Options{options.endpoint, options.run, options.name, 60, options.replay});
       ice::run_coupled(run, *participant);
     }
     spdlog::info("end: {}", ice::last_words(run).dump());
+  } catch (const exchange::ReplayEnded& verdict) {
+    std::printf("%s\n", verdict.what());
   } catch (const exchange::Stopped& stop) {
     spdlog::error("{}", stop.what());
     code = 1;
@@ -89,6 +94,7 @@ int main(int argc, char** argv) {
   auto* run_id = app.add_option("--run", options.run, "identity of the run, as given to the coupler");
   connect->needs(run_id);
   app.add_option("--name", options.name, "name of this participant");
+  exchange::add_replay_options(app, options.replay);
   app.add_option("--threads", options.threads, "threads; 0: as many as OpenMP finds")->check(CLI::NonNegativeNumber);
   try {
     app.parse(argc, argv);
@@ -99,6 +105,7 @@ int main(int argc, char** argv) {
   ice::IceRun run;
   try {
     run.scene = scene::load_resolved_scene(options.scene);
+    if (options.replay.wanted()) exchange::check_replayable(options.replay.record, options.name);
     run.folder = options.out;
     start_log(options);
     run.ice = ice::make_ice(ice::options_from_scene(run.scene));

@@ -3,12 +3,13 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import sys
 from typing import NoReturn
 
 from launcher import ROOT, WRONG_INPUT
 
-NEED_PACKAGES = {"build", "run", "explain", "test", "bench", "draw", "conform"}
+NEED_PACKAGES = {"build", "run", "replay", "explain", "test", "bench", "draw", "conform"}
 
 
 class Parser(argparse.ArgumentParser):
@@ -46,6 +47,16 @@ def assignment(text: str) -> str:
     return text
 
 
+def magnitude(text: str) -> float:
+    number = float(text)
+    if not 0 <= number < math.inf:
+        raise ValueError
+    return number
+
+
+magnitude.__name__ = "number from 0 on"
+
+
 def presets() -> list[str]:
     described = json.loads((ROOT / "CMakePresets.json").read_text())
     return [entry["name"] for entry in described["configurePresets"] if not entry.get("hidden")]
@@ -63,6 +74,21 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="one line of JSON on standard output")
 
 
+def add_replay(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("run", metavar="RUN", help="folder of a run that was started with --record")
+    parser.add_argument("--only", required=True, choices=("structure_solver", "ice_solver", "fluid_solver"))
+    parser.add_argument("--from", metavar="TIME", dest="from_time",
+                        help="compare, write frames and, with --gdb, stop from here on, e.g. '20 us'")
+    parser.add_argument("--until", metavar="TIME", dest="until_time", help="end with the window that reaches this time")
+    parser.add_argument("--tolerance", metavar="R", type=magnitude,
+                        help="largest difference relative to the largest value of an array (default: not one bit)")
+    parser.add_argument("--keep-going", action="store_true", help="past differences; the largest is told at the end")
+    parser.add_argument("--gdb", action="store_true", help="start the solver under gdb")
+    parser.add_argument("--preset", default="release", choices=presets(), help="default: release")
+    parser.add_argument("--out", metavar="DIR", help="folder of the replay (default RUN/replay/NAME)")
+    parser.add_argument("--threads", metavar="N", type=positive, help="threads to use (default: all cores)")
+
+
 def build_parser() -> argparse.ArgumentParser:
     parser = Parser(prog="./polynya", description="Water exit of a vehicle through floating ice.",
                     epilog="Exit codes: 0 done, 1 failed, 2 wrong input.")
@@ -72,7 +98,11 @@ def build_parser() -> argparse.ArgumentParser:
     add_scene(run)
     run.add_argument("--out", metavar="DIR", help="run folder (default runs/NAME-LEVEL-DATE-TIME)")
     run.add_argument("--threads", metavar="N", type=positive, help="threads to use (default: all cores)")
+    run.add_argument("--record", action="append_const", dest="settings", const="record.interface=true",
+                     help="write down every message for ./polynya replay, the same as --set record.interface=true")
     run.add_argument("--no-pictures", action="store_false", dest="pictures", help="do not draw at the end")
+
+    add_replay(commands.add_parser("replay", help="one solver of a run against the run's record, no other process"))
 
     add_scene(commands.add_parser("explain", help="what a run would do and cost, without running it"))
 

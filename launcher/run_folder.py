@@ -12,7 +12,8 @@ from typing import IO
 from launcher import ROOT, WrongInput
 
 # What a run consists of. Nothing else in the folder is ever touched.
-PARTS = ("series", "fields", "logs", "pictures", "summary.json", "scene.json", "vehicle_surface.json")
+RECORD = "record"
+PARTS = ("series", "fields", "logs", "pictures", "replay", RECORD, "summary.json", "scene.json", "vehicle_surface.json")
 SUMMARIES = "*_summary.json"
 LOCK = ".lock"
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from launcher import ROOT, WRONG_INPUT, Failure, WrongInput, build, swap
 
 SCENE_FILE = "scene.toml"
+RESOLVED = "scene.json"
 SOLVERS = ("structure", "ice", "fluid")
 
 

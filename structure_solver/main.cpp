@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "core/exchange/environment.hpp"
+#include "core/exchange/record_reader.hpp"
+#include "core/exchange/replay_options.hpp"
 #include "structure_solver/conversation.hpp"
 #include "structure_solver/free_flight.hpp"
 #include "structure_solver/surface_file.hpp"
@@ -17,6 +19,7 @@ using namespace polynya;
 
 struct Options {
   std::string scene, out, endpoint, run, name = "structure", surface;
+  exchange::Replay replay;
   int threads = 0;
 };
 
@@ -29,6 +32,7 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   app.add_option("--run", options.run, "identity of the run, the coupler's")->needs(connect);
   app.add_option("--name", options.name, "name under which the coupler expects this process");
   app.add_option("--write-surface", options.surface, "write the hull to this file (JSON) and end")->excludes(connect);
+  exchange::add_replay_options(app, options.replay);
   app.add_option("--threads", options.threads, "threads to use; 0: as many as OpenMP offers")
       ->check(CLI::NonNegativeNumber);
   try {
@@ -59,14 +63,14 @@ void describe(const structure::BuiltVehicle& v) {
 
 void run(const Options& options, const scene::Scene& scene, structure::BuiltVehicle& vehicle) {
   structure::Output output(options.out, options.name, scene.run.end_time, vehicle);
-  if (options.endpoint.empty()) {
+  if (options.endpoint.empty() && !options.replay.wanted()) {
     structure::run_free_flight(vehicle, scene.run, output);
     output.close({});
     output.write_summary();
     spdlog::info("finished: {}", output.summary().dump());
     return;
   }
-  exchange::Participant coupler({options.endpoint, options.run, options.name});
+  exchange::Participant coupler({options.endpoint, options.run, options.name, 60, options.replay});
   try {
     structure::run_coupled(vehicle, scene.run.step_factor, coupler, output);
     output.close(coupler.waits().intervals());
@@ -93,6 +97,7 @@ int main(int argc, char** argv) {
   structure::BuiltVehicle vehicle;
   try {
     scene = scene::load_resolved_scene(options.scene);
+    if (options.replay.wanted()) exchange::check_replayable(options.replay.record, options.name);
     start_log(options);
     vehicle = structure::build_vehicle(scene);
     describe(vehicle);
@@ -106,6 +111,9 @@ int main(int argc, char** argv) {
   }
   try {
     run(options, scene, vehicle);
+    return 0;
+  } catch (const exchange::ReplayEnded& verdict) {
+    std::printf("%s\n", verdict.what());
     return 0;
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());

@@ -38,6 +38,24 @@ class CouplerLost : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A record that is missing, damaged, or not fit for a replay.
+class RecordError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// In a replay: this participant said something else than what is on record.
+class ReplayDifference : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// In a replay: all that was to be replayed has been. The text is the verdict; exit with 0.
+class ReplayEnded : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// A participant left before its end: killed, crashed, disconnected, or gave up with a reason of its own.
 class ParticipantLost : public std::runtime_error {
  public:

@@ -45,6 +45,7 @@ struct Hub::State {
   std::map<std::string, std::string> name_of_route;
   std::vector<std::string> leaving;
   std::string last_refusal;
+  Recorder* recorder = nullptr;
   bool local;
 
   State(const std::string& endpoint, std::string run, const std::vector<std::string>& expected)
@@ -169,6 +170,10 @@ Hub::Hub(std::string endpoint, std::string run, std::vector<std::string> expecte
 
 Hub::~Hub() = default;
 
+void Hub::record(Recorder& recorder) {
+  state_->recorder = &recorder;
+}
+
 void Hub::await_participants(double timeout_seconds) {
   const auto until = Clock::now() + std::chrono::ceil<milliseconds>(std::chrono::duration<double>(timeout_seconds));
   while (!state_->missing().empty()) {
@@ -193,6 +198,7 @@ void Hub::send(const std::string& name, Message&& message) {
   Member& member = state_->member(name);
   const bool last = message.kind() == "bye";
   if (member.presence != Presence::here) throw ParticipantLost(name, "is not part of the run at this time");
+  if (state_->recorder != nullptr) state_->recorder->note(name, Sender::coupler, message);
   if (!state_->transport.send(member.route, std::move(message), state_->envelope)) {
     // What it said last is still to be read: these rounds throw, with its own reason if it gave one.
     for (int round = 0; round < 3; ++round) state_->attend(second_look);
@@ -211,6 +217,7 @@ Message Hub::receive(const std::string& name) {
   member.waits.add(start, state_->transport.woke());
   Message message = std::move(member.inbox.front());
   member.inbox.pop_front();
+  if (state_->recorder != nullptr) state_->recorder->note(name, Sender::participant, message);
   return message;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/exchange/errors.hpp"
 #include "core/exchange/message.hpp"
+#include "core/exchange/recorder.hpp"
 #include "core/exchange/waits.hpp"
 
 namespace polynya::exchange {
@@ -19,6 +20,9 @@ class Hub {
   ~Hub();
   Hub(const Hub&) = delete;
   Hub& operator=(const Hub&) = delete;
+
+  /// From now on notes every message of send() and receive(), in this order. The recorder must outlive the hub's use.
+  void record(Recorder& recorder);
 
   /// Welcomes participants until all expected ones are here. Throws ParticipantMissing naming the others after the
   /// timeout, ParticipantLost when one comes and goes.

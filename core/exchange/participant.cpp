@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "core/exchange/transport.hpp"
+#include "core/exchange/channel.hpp"
 
 namespace polynya::exchange {
 
@@ -14,23 +14,24 @@ using std::chrono::milliseconds;
 
 struct Participant::State {
   Options options;
-  Transport transport;
+  std::unique_ptr<Channel> channel;
   Envelope envelope;
   Waits waits;
 
   explicit State(Options given)
       : options(std::move(given)),
-        transport(Transport::Side::participant, options.endpoint),
+        channel(options.replay.wanted() ? open_replay(options.replay, options.name)
+                                        : connect_to_coupler(options.endpoint)),
         envelope{protocol_version, options.run} {}
 
   /// The next message, or nothing when the time is over.
   std::optional<Message> next(Clock::time_point until) {
     while (true) {
       const auto left = std::max(std::chrono::ceil<milliseconds>(until - Clock::now()), milliseconds(0));
-      if (std::optional<Delivery> delivery = transport.next(std::min(left, milliseconds(3'600'000))))
+      if (std::optional<Delivery> delivery = channel->next(std::min(left, milliseconds(3'600'000))))
         return accept(std::move(*delivery));
-      if (!transport.closed_connections().empty()) {
-        transport.abandon_queued();
+      if (channel->closed()) {
+        channel->abandon_queued();
         throw CouplerLost("the coupler at " + options.endpoint + " closed the connection: it ended or was killed");
       }
       if (left == milliseconds(0)) return std::nullopt;
@@ -60,7 +61,7 @@ Participant::Participant(Options options) : state_(std::make_unique<State>(std::
   const auto patience = std::chrono::duration<double>(own.timeout_seconds);
   const std::optional<Message> answer = state_->next(Clock::now() + std::chrono::ceil<milliseconds>(patience));
   if (!answer) {
-    state_->transport.abandon_queued();
+    state_->channel->abandon_queued();
     throw CouplerLost("no coupler answered at " + own.endpoint + " within " +
                       nlohmann::json(own.timeout_seconds).dump() + " s");
   }
@@ -74,14 +75,14 @@ void Participant::send(const Message& message) {
 }
 
 void Participant::send(Message&& message) {
-  state_->transport.send({}, std::move(message), state_->envelope);
+  state_->channel->send(std::move(message), state_->envelope);
 }
 
 Message Participant::receive() {
   const auto start = Clock::now();
   std::optional<Message> message;
   while (!message) message = state_->next(Clock::now() + std::chrono::hours(1));
-  state_->waits.add(start, state_->transport.woke());
+  state_->waits.add(start, state_->channel->woke());
   return std::move(*message);
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/exchange/errors.hpp"
 #include "core/exchange/message.hpp"
+#include "core/exchange/replay.hpp"
 #include "core/exchange/waits.hpp"
 
 namespace polynya::exchange {
@@ -18,15 +19,17 @@ class Participant {
     std::string run;              ///< identifier of the run, the same for all its processes
     std::string name;             ///< one of the names the coupler expects
     double timeout_seconds = 60;  ///< longest wait for the coupler's answer to `hello`
+    Replay replay = {};           ///< when wanted: the record takes the place of the coupler, endpoint and run are unused
   };
 
-  /// Connects, says `hello` and waits for `welcome`. Throws EndpointError, Refused, CouplerLost.
+  /// Connects, says `hello` and waits for `welcome`. Throws EndpointError, Refused, CouplerLost, RecordError.
   explicit Participant(Options options);
   ~Participant();
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
 
   /// Hands a message to the transport and returns at once. The second form moves the arrays instead of copying them.
+  /// In a replay throws ReplayDifference, and like receive() ReplayEnded.
   void send(const Message& message);
   void send(Message&& message);
 

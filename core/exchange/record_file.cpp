@@ -1,0 +1,279 @@
+#include "core/exchange/record_file.hpp"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/exchange/byte_entropy.hpp"
+#include "core/exchange/errors.hpp"
+#include "core/exchange/hdf5_handle.hpp"
+#include "core/exchange/wire.hpp"
+#include "core/results/durable_file.hpp"
+#include "core/results/error.hpp"
+
+namespace polynya::exchange {
+namespace {
+
+using hdf5::check;
+using hdf5::Handle;
+
+constexpr const char* format_name = "polynya-record";
+constexpr std::int64_t format_version = 1;
+constexpr std::size_t chunk_bytes = 1 << 18;
+constexpr std::size_t batch_bytes = 1 << 20;
+constexpr std::size_t smallest_compressed = 1 << 12;
+constexpr unsigned deflate_level = 1;
+constexpr double most_entropy = 0.25;  // of what is compressed: the rest takes longer than it saves
+
+hid_t type_of(const std::string& type) {
+  if (type == "f8") return H5T_IEEE_F64LE;
+  if (type == "i8") return H5T_STD_I64LE;
+  if (type == "i4") return H5T_STD_I32LE;
+  return H5T_STD_U8LE;
+}
+
+/// Names of links: "/" and "%" are escaped, and so is a name that HDF5 would not take.
+std::string link_name(const std::string& name) {
+  std::string link;
+  for (const char c : name) link += c == '/' ? "%2F" : c == '%' ? "%25" : std::string(1, c);
+  return link.empty() ? "%" : link == "." ? "%2E" : link;
+}
+
+Handle group(hid_t parent, const std::string& name) {
+  return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name};
+}
+
+/// A data set, empty yet. Compressed if that is worth the time.
+Handle make_rows(hid_t parent, const char* name, hid_t type, const std::vector<hsize_t>& shape, bool compressed) {
+  const int rank = static_cast<int>(shape.size());
+  const Handle space(H5Screate_simple(rank, shape.data(), nullptr), H5Sclose, name);
+  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
+  hsize_t row = H5Tget_size(type);
+  for (std::size_t i = 1; i < shape.size(); ++i) row *= shape[i];
+  if (compressed && row * shape[0] > smallest_compressed) {
+    std::vector<hsize_t> chunk = shape;
+    chunk[0] = std::clamp<hsize_t>(chunk_bytes / row, 1, shape[0]);
+    check(H5Pset_chunk(properties, rank, chunk.data()), name);
+    check(H5Pset_shuffle(properties), name);
+    check(H5Pset_deflate(properties, deflate_level), name);
+  }
+  return {H5Dcreate2(parent, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, name};
+}
+
+template <class T>
+void write_column(hid_t parent, const char* name, hid_t type, const std::vector<T>& values) {
+  const Handle set = make_rows(parent, name, type, {values.size()}, true);
+  if (!values.empty()) check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
+}
+
+void write_texts(hid_t parent, const char* name, const std::vector<std::string>& texts) {
+  const Handle type = hdf5::text_type();
+  const hsize_t count = texts.size();
+  const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, name);
+  const Handle set(H5Dcreate2(parent, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, name);
+  std::vector<const char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  if (count > 0) check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), name);
+}
+
+void write_label(hid_t file, const RecordLabel& label) {
+  hdf5::write_text(file, "format", format_name);
+  hdf5::write_numbers<std::int64_t>(file, "version", {&format_version, 1});
+  const std::int64_t protocol = protocol_version;
+  hdf5::write_numbers<std::int64_t>(file, "protocol", {&protocol, 1});
+  hdf5::write_text(file, "run", label.run);
+  hdf5::write_text(file, "participant", label.participant);
+  hdf5::write_numbers<double>(file, "from", {&label.from, 1});
+  hdf5::write_numbers<double>(file, "until", {&label.until, 1});
+  if (label.region) hdf5::write_numbers<double>(file, "region", *label.region);
+}
+
+/// Reads or writes rows of a data set; `transfer` gets the spaces in memory and in the file.
+template <class Transfer>
+void transfer_rows(hid_t set, const std::string& name, std::vector<hsize_t> shape, hsize_t first, hsize_t rows,
+                   Transfer&& transfer) {
+  const Handle all(H5Dget_space(set), H5Sclose, name);
+  std::vector<hsize_t> start(shape.size(), 0);
+  start[0] = first, shape[0] = rows;
+  if (std::find(shape.begin(), shape.end(), 0) != shape.end()) return;
+  check(H5Sselect_hyperslab(all, H5S_SELECT_SET, start.data(), nullptr, shape.data(), nullptr), name);
+  const Handle part(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, name);
+  check(transfer(part, all), name);
+}
+
+/// Small arrays are gathered: HDF5 takes longer over a call than over the bytes.
+void write_values(hid_t set, const std::string& name, const std::vector<hsize_t>& shape, const ArraySeries& series) {
+  std::vector<std::byte> batch;
+  std::int64_t first = 0;
+  for (std::size_t i = 0; i < series.values.size(); ++i) {
+    batch.insert(batch.end(), series.values[i].begin(), series.values[i].end());
+    if (batch.size() < batch_bytes && i + 1 < series.values.size()) continue;
+    transfer_rows(set, name, shape, static_cast<hsize_t>(first), static_cast<hsize_t>(series.first[i + 1] - first),
+                  [&](hid_t part, hid_t all) {
+                    return H5Dwrite(set, type_of(series.type), part, all, H5P_DEFAULT, batch.data());
+                  });
+    first = series.first[i + 1];
+    batch.clear();
+  }
+}
+
+void write_series(hid_t parent, const std::string& name, const ArraySeries& series) {
+  const Handle home = group(parent, link_name(name));
+  std::vector<hsize_t> shape{static_cast<hsize_t>(series.first.back())};
+  for (const std::int64_t extent : series.trailing) shape.push_back(static_cast<hsize_t>(extent));
+  hdf5::write_text(home, "type", series.type);
+  const std::int64_t scalar = series.scalar ? 1 : 0;
+  hdf5::write_numbers<std::int64_t>(home, "scalar", {&scalar, 1});
+  const hid_t type = type_of(series.type);
+  const Handle set =
+      make_rows(home, "values", type, shape, byte_entropy(series.values, H5Tget_size(type)) < most_entropy);
+  write_values(set, name, shape, series);
+  write_column(home, "message", H5T_STD_I64LE, series.message);
+  write_column(home, "first", H5T_STD_I64LE, series.first);
+}
+
+void write_all(const std::string& path, const RecordSegment& segment, const RecordLabel& label) {
+  const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path);
+  write_label(file, label);
+  {
+    const Handle messages = group(file, "messages");
+    write_column(messages, "from_coupler", H5T_STD_U8LE, segment.sender);
+    write_column(messages, "window", H5T_STD_I64LE, segment.window);
+    write_column(messages, "time", H5T_IEEE_F64LE, segment.time);
+    write_texts(messages, "header", segment.header);
+  }
+  const Handle arrays = group(file, "arrays");
+  std::string kind;
+  std::optional<Handle> home;
+  for (const auto& [key, series] : segment.series) {
+    if (!home || kind != key.first) home.reset(), home.emplace(group(arrays, link_name(kind = key.first)));
+    write_series(*home, key.second, series);
+  }
+  check(H5Fflush(file, H5F_SCOPE_GLOBAL), path);
+}
+
+template <class T>
+std::vector<T> read_column(hid_t parent, const char* name, hid_t type) {
+  const Handle set(H5Dopen2(parent, name, H5P_DEFAULT), H5Dclose, name);
+  const Handle space(H5Dget_space(set), H5Sclose, name);
+  std::vector<T> values(static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space), 0)));
+  if (!values.empty()) check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
+  return values;
+}
+
+std::vector<std::string> read_texts(hid_t parent, const char* name) {
+  const Handle type = hdf5::text_type();
+  const Handle set(H5Dopen2(parent, name, H5P_DEFAULT), H5Dclose, name);
+  const Handle space(H5Dget_space(set), H5Sclose, name);
+  std::vector<char*> pointers(static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space), 0)));
+  if (pointers.empty()) return {};
+  check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), name);
+  std::vector<std::string> texts(pointers.begin(), pointers.end());
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
+  return texts;
+}
+
+ArraySeries read_series(hid_t kind, const std::string& name) {
+  const Handle home(H5Gopen2(kind, link_name(name).c_str(), H5P_DEFAULT), H5Gclose, name);
+  ArraySeries series;
+  series.type = hdf5::read_text(home, "type");
+  series.scalar = hdf5::read_numbers<std::int64_t>(home, "scalar").at(0) != 0;
+  series.message = read_column<std::int64_t>(home, "message", H5T_STD_I64LE);
+  series.first = read_column<std::int64_t>(home, "first", H5T_STD_I64LE);
+  const hid_t type = type_of(series.type);
+  const Handle set(H5Dopen2(home, "values", H5P_DEFAULT), H5Dclose, name);
+  const Handle space(H5Dget_space(set), H5Sclose, name);
+  std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space), 1)));
+  check(H5Sget_simple_extent_dims(space, shape.data(), nullptr), name);
+  series.trailing.assign(shape.begin() + 1, shape.end());
+  if (series.first.size() != series.message.size() + 1 || series.first.front() != 0 ||
+      !std::is_sorted(series.first.begin(), series.first.end()) ||
+      series.first.back() != static_cast<std::int64_t>(shape[0]))
+    throw RecordError("the rows of the array '" + name + "' do not follow each other");
+  const std::size_t row = byte_count({name, series.type, series.trailing, {}});
+  for (std::size_t i = 0; i < series.message.size(); ++i) {
+    const auto first = static_cast<hsize_t>(series.first[i]), rows = static_cast<hsize_t>(series.first[i + 1]) - first;
+    std::vector<std::byte>& values = series.values.emplace_back(row * rows);
+    transfer_rows(set, name, shape, first, rows,
+                  [&](hid_t part, hid_t all) { return H5Dread(set, type, part, all, H5P_DEFAULT, values.data()); });
+  }
+  return series;
+}
+
+/// Which arrays there are stands in the headers.
+void read_arrays(hid_t file, RecordSegment& segment) {
+  const Handle arrays(H5Gopen2(file, "arrays", H5P_DEFAULT), H5Gclose, "arrays");
+  for (const std::string& frame : segment.header) {
+    Envelope envelope;
+    const Message message = decode_header(frame, envelope);
+    for (const Array& array : message.arrays) {
+      const std::pair key(message.kind(), array.name);
+      if (segment.series.contains(key)) continue;
+      const Handle kind(H5Gopen2(arrays, link_name(key.first).c_str(), H5P_DEFAULT), H5Gclose, key.first);
+      segment.series[key] = read_series(kind, array.name);
+    }
+  }
+}
+
+RecordSegment read_all(const std::string& path, RecordLabel& label) {
+  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path);
+  if (hdf5::read_text(file, "format") != format_name) throw RecordError("is not part of a record");
+  if (hdf5::read_numbers<std::int64_t>(file, "version").at(0) != format_version ||
+      hdf5::read_numbers<std::int64_t>(file, "protocol").at(0) != protocol_version)
+    throw RecordError("was written by another version of the recorder or of the protocol");
+  label = {hdf5::read_text(file, "run"),
+           hdf5::read_text(file, "participant"),
+           hdf5::read_numbers<double>(file, "from").at(0),
+           hdf5::read_numbers<double>(file, "until").at(0),
+           {}};
+  if (H5Aexists(file, "region") > 0) {
+    const std::vector<double> box = hdf5::read_numbers<double>(file, "region");
+    std::copy_n(box.begin(), std::min<std::size_t>(box.size(), 6), label.region.emplace().begin());
+  }
+  RecordSegment segment;
+  const Handle messages(H5Gopen2(file, "messages", H5P_DEFAULT), H5Gclose, "messages");
+  segment.sender = read_column<std::uint8_t>(messages, "from_coupler", H5T_STD_U8LE);
+  segment.window = read_column<std::int64_t>(messages, "window", H5T_STD_I64LE);
+  segment.time = read_column<double>(messages, "time", H5T_IEEE_F64LE);
+  segment.header = read_texts(messages, "header");
+  const std::size_t count = segment.header.size();
+  if (segment.sender.size() != count || segment.window.size() != count || segment.time.size() != count)
+    throw RecordError("holds message columns of different lengths");
+  read_arrays(file, segment);
+  return segment;
+}
+
+}  // namespace
+
+std::string segment_path(const std::string& folder, const std::string& participant, int number) {
+  char digits[16];
+  std::snprintf(digits, sizeof digits, "-%03d.h5", number);
+  return folder + "/" + participant + digits;
+}
+
+void write_segment(const std::string& path, const RecordSegment& segment, const RecordLabel& label) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported once, by the exception
+  results::create_folder_of(path);
+  try {
+    write_all(results::aside(path), segment, label);
+  } catch (const hdf5::Refused& error) {
+    throw results::ResultsError("cannot write " + path + ": HDF5 could not store " + error.what() + " (disk full?)");
+  }
+  results::commit_file(path);
+}
+
+RecordSegment read_segment(const std::string& path, RecordLabel& label) {
+  if (!std::filesystem::exists(path)) throw RecordError(path + ": there is no such file");
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  try {
+    return read_all(path, label);
+  } catch (const hdf5::Refused& error) {
+    throw RecordError(path + ": HDF5 could not read " + error.what() + "; the file is damaged");
+  } catch (const std::runtime_error& error) {
+    throw RecordError(path + ": " + error.what());
+  }
+}
+
+}  // namespace polynya::exchange

@@ -1,0 +1,60 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/exchange/message.hpp"
+
+namespace polynya::exchange {
+
+enum class Sender : std::uint8_t { participant = 0, coupler = 1 };
+
+/// A message, who sent it, and when in the run: the window (of a fluid: the span) and the time (s) that the
+/// conversation had reached. window is -1 for messages that have none.
+struct RecordedMessage {
+  Sender sender = Sender::participant;
+  std::int64_t window = -1;
+  double time = 0;
+  Message message;
+};
+
+/// What every file of a record says about itself.
+struct RecordLabel {
+  std::string run, participant;
+  double from = 0, until = 0;                   ///< s, what was to be recorded; until 0: to the end
+  std::optional<std::array<double, 6>> region;  ///< m, lowest x, y, z, then highest: only this box was stored
+};
+
+/// All arrays of one name in one kind of message, one behind the other along their first extent.
+struct ArraySeries {
+  std::string type;
+  std::vector<std::int64_t> trailing;          ///< extents after the first
+  bool scalar = false;                         ///< shape [] each
+  std::vector<std::int64_t> message;           ///< which messages of the segment carry it
+  std::vector<std::int64_t> first{0};          ///< their first rows, and one behind the last
+  std::vector<std::vector<std::byte>> values;  ///< one per message
+};
+
+/// A part of a conversation as it lies in one file. Header frames are kept as they travel (docs/protocol.md), with the
+/// arrays' names, types and shapes.
+struct RecordSegment {
+  std::vector<std::string> header;
+  std::vector<std::uint8_t> sender;
+  std::vector<std::int64_t> window;
+  std::vector<double> time;
+  std::map<std::pair<std::string, std::string>, ArraySeries> series;  ///< by kind and name
+  std::size_t bytes = 0;
+
+  /// False if an array changes its type or an extent other than the first: such a message needs a new segment.
+  bool fits(const Message& message) const;
+  void append(RecordedMessage&& recorded, const std::string& run);
+  /// The messages again, bit for bit; the segment is empty after it. Throws ProtocolError when header and arrays
+  /// disagree.
+  std::vector<RecordedMessage> take_messages();
+};
+
+}  // namespace polynya::exchange

@@ -1,0 +1,209 @@
+#include "core/exchange/recorder.hpp"
+
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "core/exchange/record_file.hpp"
+#include "core/exchange/record_region.hpp"
+
+namespace polynya::exchange {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+constexpr double share_at_risk = 0.01;  ///< of a long run, that may lie in files not closed yet
+
+struct Noted {
+  std::string participant;
+  RecordedMessage recorded;
+};
+
+std::size_t size_of(const Message& message) {
+  std::size_t size = sizeof(Noted);
+  for (const Array& array : message.arrays) size += array.bytes.size();
+  return size;
+}
+
+/// Window and time that a conversation has reached: `loads` and `pressure` carry no time of their own.
+struct Progress {
+  std::int64_t window = -1;
+  double time = 0;
+
+  void take(const nlohmann::json& header) {
+    for (const char* name : {"window", "span"})
+      if (header.contains(name) && header[name].is_number_integer()) window = header[name].get<std::int64_t>();
+    for (const char* name : {"time", "time1"})
+      if (header.contains(name) && header[name].is_number()) time = header[name].get<double>();
+  }
+};
+
+/// One participant's files. Belongs to the recorder's thread.
+struct Conversation {
+  RecordLabel label;
+  std::optional<RecordRegion> region;
+  RecordSegment segment;
+  int files = 0;
+
+  void write(const std::string& folder) {
+    if (segment.header.empty()) return;
+    write_segment(segment_path(folder, label.participant, files++), segment, label);
+    segment = {};
+  }
+
+  void append(const std::string& folder, RecordedMessage&& recorded) {
+    if (region) recorded.message = region->restrict(recorded.message);
+    if (!segment.fits(recorded.message)) write(folder);
+    segment.append(std::move(recorded), label.run);
+  }
+};
+
+/// On Linux a thread has a niceness of its own: the solvers go first, the recorder takes what they leave.
+void step_back() {
+  const auto thread = static_cast<id_t>(gettid());
+  setpriority(PRIO_PROCESS, thread, getpriority(PRIO_PROCESS, thread) + 10);
+}
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+struct Recorder::State {
+  Options options;
+  std::map<std::string, Progress> progress;           // of the run's thread
+  std::map<std::string, Conversation> conversations;  // of the recorder's thread
+  Statistics statistics;
+
+  std::mutex mutex;
+  std::condition_variable arrived, room;
+  std::deque<Noted> queue;
+  std::size_t queued_bytes = 0;
+  bool closing = false;
+  std::exception_ptr error;
+  Clock::time_point begun = Clock::now(), last_files = begun;
+  std::thread thread;
+
+  explicit State(Options given) : options(std::move(given)), thread([this] { work(); }) {}
+
+  bool wanted(const std::string& participant, const Progress& now) const {
+    const auto& chosen = options.participants;
+    if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), participant) == chosen.end()) return false;
+    // What is said before the first window describes surfaces and grid; later messages cannot be read without it.
+    return now.time <= options.until && (now.time >= options.from || now.window < 0);
+  }
+
+  void put(Noted&& noted) {
+    std::unique_lock lock(mutex);
+    room.wait(lock, [&] { return queued_bytes < options.queue_bytes || error; });
+    if (error) std::rethrow_exception(error);
+    const std::size_t size = size_of(noted.recorded.message);
+    queued_bytes += size;
+    statistics.bytes += size;
+    ++statistics.messages;
+    queue.push_back(std::move(noted));
+    arrived.notify_one();
+  }
+
+  /// When the open files are due: their loss must not cost more than a little of the run.
+  Clock::time_point due() const {
+    const double passed = Seconds(last_files - begun).count();
+    return last_files + std::chrono::duration_cast<Clock::duration>(
+                            Seconds(std::max(options.segment_seconds, share_at_risk * passed)));
+  }
+
+  void work() {
+    step_back();
+    try {
+      while (std::optional<Noted> noted = next()) take(std::move(*noted));
+      write_all();
+    } catch (...) {
+      const std::scoped_lock lock(mutex);
+      error = std::current_exception();
+      queue.clear();
+      queued_bytes = 0;
+      room.notify_all();
+    }
+    statistics.busy_seconds = processor_seconds();
+  }
+
+  /// The next message; writes the files that are due while none comes. Nothing when the recorder closes.
+  std::optional<Noted> next() {
+    std::unique_lock lock(mutex);
+    const auto ready = [&] { return !queue.empty() || closing; };
+    while (!ready()) {
+      if (arrived.wait_until(lock, due(), ready)) break;
+      lock.unlock();
+      write_all();
+      lock.lock();
+    }
+    if (queue.empty()) return std::nullopt;
+    Noted noted = std::move(queue.front());
+    queue.pop_front();
+    queued_bytes -= size_of(noted.recorded.message);
+    room.notify_one();
+    return noted;
+  }
+
+  void take(Noted&& noted) {
+    Conversation& conversation = conversations[noted.participant];
+    if (conversation.label.participant.empty()) {
+      const bool all = options.until == std::numeric_limits<double>::infinity();
+      conversation.label = {options.run, noted.participant, options.from, all ? 0 : options.until, options.region};
+      if (options.region) conversation.region.emplace(*options.region);
+    }
+    conversation.append(options.folder, std::move(noted.recorded));
+    if (conversation.segment.bytes >= options.segment_bytes) conversation.write(options.folder);
+    if (Clock::now() >= due()) write_all();
+  }
+
+  void write_all() {
+    for (auto& [name, conversation] : conversations) conversation.write(options.folder);
+    last_files = Clock::now();
+  }
+
+  void finish() {
+    if (!thread.joinable()) return;
+    {
+      const std::scoped_lock lock(mutex);
+      closing = true;
+      arrived.notify_one();
+    }
+    thread.join();
+  }
+};
+
+Recorder::Recorder(Options options) : state_(std::make_unique<State>(std::move(options))) {}
+
+Recorder::~Recorder() {
+  state_->finish();
+}
+
+void Recorder::note(const std::string& participant, Sender sender, const Message& message) {
+  const auto start = Clock::now();
+  Progress& now = state_->progress[participant];
+  now.take(message.header);
+  if (!state_->wanted(participant, now)) return;
+  state_->put({participant, {sender, now.window, now.time, message}});
+  state_->statistics.noting_seconds += Seconds(Clock::now() - start).count();
+}
+
+Recorder::Statistics Recorder::close() {
+  state_->finish();
+  if (state_->error) std::rethrow_exception(state_->error);
+  return state_->statistics;
+}
+
+}  // namespace polynya::exchange
