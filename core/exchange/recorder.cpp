@@ -11,6 +11,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "core/exchange/record_file.hpp"
 #include "core/exchange/record_region.hpp"
@@ -21,6 +22,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
+constexpr std::size_t batch_bytes = 2 << 20;
 constexpr double share_at_risk = 0.01;  ///< of a long run, that may lie in files not closed yet
 
 struct Noted {
@@ -114,8 +116,11 @@ struct Recorder::State {
     statistics.bytes += size;
     ++statistics.messages;
     queue.push_back(std::move(noted));
-    arrived.notify_one();
+    if (full_batch()) arrived.notify_one();
   }
+
+  /// Waking the thread for every message would cost the run more than copying it.
+  bool full_batch() const { return queued_bytes >= std::min(batch_bytes, options.queue_bytes); }
 
   /// When the open files are due: their loss must not cost more than a little of the run.
   Clock::time_point due() const {
@@ -127,34 +132,27 @@ struct Recorder::State {
   void work() {
     step_back();
     try {
-      while (std::optional<Noted> noted = next()) take(std::move(*noted));
-      write_all();
+      for (bool last = false; !last;) {
+        std::deque<Noted> batch = next_batch(last);
+        for (Noted& noted : batch) take(std::move(noted));
+        if (last || Clock::now() >= due()) write_all();
+      }
     } catch (...) {
       const std::scoped_lock lock(mutex);
       error = std::current_exception();
-      queue.clear();
-      queued_bytes = 0;
       room.notify_all();
     }
     statistics.busy_seconds = processor_seconds();
   }
 
-  /// The next message; writes the files that are due while none comes. Nothing when the recorder closes.
-  std::optional<Noted> next() {
+  /// What is queued once it is worth it, or when the files are due, or at the end (last).
+  std::deque<Noted> next_batch(bool& last) {
     std::unique_lock lock(mutex);
-    const auto ready = [&] { return !queue.empty() || closing; };
-    while (!ready()) {
-      if (arrived.wait_until(lock, due(), ready)) break;
-      lock.unlock();
-      write_all();
-      lock.lock();
-    }
-    if (queue.empty()) return std::nullopt;
-    Noted noted = std::move(queue.front());
-    queue.pop_front();
-    queued_bytes -= size_of(noted.recorded.message);
+    arrived.wait_until(lock, due(), [&] { return full_batch() || closing; });
+    last = closing;
+    queued_bytes = 0;
     room.notify_one();
-    return noted;
+    return std::exchange(queue, {});
   }
 
   void take(Noted&& noted) {
@@ -166,7 +164,6 @@ struct Recorder::State {
     }
     conversation.append(options.folder, std::move(noted.recorded));
     if (conversation.segment.bytes >= options.segment_bytes) conversation.write(options.folder);
-    if (Clock::now() >= due()) write_all();
   }
 
   void write_all() {
