@@ -55,9 +55,10 @@ double relative(double sent, double recorded, double scale) {
   return std::isfinite(size) ? size : sent == recorded ? 0.0 : infinite;
 }
 
+/// Of flattened headers: "/account/kinetic" names what lies inside of something else.
 void compare_headers(MessageDifference& all, const nlohmann::json& sent, const nlohmann::json& recorded) {
   for (const auto& [name, value] : recorded.items()) {
-    const std::string field = "field '" + name + "'";
+    const std::string field = "field '" + name.substr(1) + "'";
     if (!sent.contains(name)) {
       note(all, infinite, field + " is missing, on record is " + text(value));
       continue;
@@ -70,7 +71,7 @@ void compare_headers(MessageDifference& all, const nlohmann::json& sent, const n
     note(all, size, pair_text(field, text(own), text(value)));
   }
   for (const auto& [name, value] : sent.items())
-    if (!recorded.contains(name)) note(all, infinite, "field '" + name + "' is not on record");
+    if (!recorded.contains(name)) note(all, infinite, "field '" + name.substr(1) + "' is not on record");
 }
 
 template <class T>
@@ -107,7 +108,7 @@ void compare_arrays(MessageDifference& all, const Message& sent, const Message& 
 
 MessageDifference compare(const Message& sent, const Message& recorded) {
   MessageDifference all;
-  compare_headers(all, sent.header, recorded.header);
+  compare_headers(all, sent.header.flatten(), recorded.header.flatten());
   for (const Array& array : recorded.arrays) compare_arrays(all, sent, recorded, array);
   for (const Array& array : sent.arrays)
     if (!recorded.has(array.name)) note(all, infinite, "array '" + array.name + "' is not on record");

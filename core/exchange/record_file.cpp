@@ -249,7 +249,7 @@ RecordSegment read_all(const std::string& path, RecordLabel& label) {
 
 std::string segment_path(const std::string& folder, const std::string& participant, int number) {
   char digits[16];
-  std::snprintf(digits, sizeof digits, "-%03d.h5", number);
+  std::snprintf(digits, sizeof digits, "-%05d.h5", number);
   return folder + "/" + participant + digits;
 }
 

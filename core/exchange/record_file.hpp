@@ -5,7 +5,7 @@
 
 namespace polynya::exchange {
 
-/// "RECORD/ice-000.h5".
+/// "RECORD/ice-00000.h5".
 std::string segment_path(const std::string& folder, const std::string& participant, int number);
 
 /// Writes one file of a record (layout: docs/debugging.md), aside and renamed: a reader sees all of it or nothing.

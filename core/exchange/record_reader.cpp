@@ -10,7 +10,7 @@
 namespace polynya::exchange {
 
 std::vector<std::string> recorded_participants(const std::string& folder) {
-  const std::string first_file = "-000.h5";
+  const std::string first_file = "-00000.h5";
   std::vector<std::string> names;
   if (!std::filesystem::is_directory(folder)) return names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

@@ -12,7 +12,7 @@
 namespace polynya::exchange {
 
 /// Writes down what participants and coupler say to each other, in files that are closed and renamed one after the
-/// other: RECORD/ice-000.h5, RECORD/ice-001.h5 and so on (layout: docs/debugging.md). So all but the latest is readable
+/// other: RECORD/ice-00000.h5, RECORD/ice-00001.h5 and so on (layout: docs/debugging.md). So all but the latest is readable
 /// whenever the process is killed. A thread of its own compresses and writes; the run waits only when that thread falls
 /// behind by more than the queue.
 class Recorder {

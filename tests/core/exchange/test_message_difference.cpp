@@ -50,6 +50,11 @@ TEST(MessageDifference, FieldsOfTheHeaderAreComparedRelativeToTheRecordedNumber)
   Message other = with({1, 2});
   other.header["stable_step"] = 1.01e-7;
   EXPECT_NEAR(compare(other, with({1, 2})).size, 0.01, 1e-12);
+  Message nested = with({1, 2}), changed = with({1, 2});
+  nested.header["account"] = {{"kinetic", 2.0}, {"internal", 1.0}};
+  changed.header["account"] = {{"kinetic", 2.5}, {"internal", 1.0}};
+  EXPECT_EQ(compare(changed, nested).first, "field 'account/kinetic' is 2.5, on record is 2.0");
+  EXPECT_DOUBLE_EQ(compare(changed, nested).size, 0.25);
 }
 
 }  // namespace

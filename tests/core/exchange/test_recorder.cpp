@@ -165,7 +165,7 @@ TEST(Recorder, WhatAKilledProcessHadWrittenIsWholeUpToTheLastFile) {
     }
     return 0;
   });
-  while (!std::filesystem::exists(options.folder + "/ice-004.h5"))
+  while (!std::filesystem::exists(options.folder + "/ice-00004.h5"))
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   writer.kill();
   EXPECT_EQ(writer.wait(), -1);
@@ -182,9 +182,9 @@ TEST(Recorder, FilesAppearWhileNobodySpeaks) {
   Recorder recorder(options);
   recorder.note("ice", Sender::participant, surface(0, 0));
   const auto start = std::chrono::steady_clock::now();
-  while (!std::filesystem::exists(options.folder + "/ice-000.h5") && seconds_since(start) < 10)
+  while (!std::filesystem::exists(options.folder + "/ice-00000.h5") && seconds_since(start) < 10)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  EXPECT_TRUE(std::filesystem::exists(options.folder + "/ice-000.h5"));
+  EXPECT_TRUE(std::filesystem::exists(options.folder + "/ice-00000.h5"));
 }
 
 TEST(Recorder, AQueueThatIsFullMakesTheRunWaitAndLosesNothing) {
@@ -212,8 +212,8 @@ TEST(Recorder, AMissingAndADamagedRecordAreNamed) {
   EXPECT_NE(message_of<RecordError>([&] { RecordReader(record, "ice"); }).find("there is no record"),
             std::string::npos);
   std::filesystem::create_directory(record);
-  std::ofstream(record + "/ice-000.h5") << "not HDF5";
-  EXPECT_NE(message_of<RecordError>([&] { RecordReader(record, "ice"); }).find("ice-000.h5"), std::string::npos);
+  std::ofstream(record + "/ice-00000.h5") << "not HDF5";
+  EXPECT_NE(message_of<RecordError>([&] { RecordReader(record, "ice"); }).find("ice-00000.h5"), std::string::npos);
 }
 
 }  // namespace
