@@ -7,8 +7,8 @@
 namespace polynya::exchange {
 namespace {
 
-constexpr std::size_t sampled_arrays = 16;
-constexpr std::size_t sampled_items = 4096;  // of each
+constexpr std::size_t sampled_arrays = 8;
+constexpr std::size_t sampled_items = 1024;  // of each
 
 }  // namespace
 

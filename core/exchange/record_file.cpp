@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 
@@ -261,7 +262,9 @@ void write_segment(const std::string& path, const RecordSegment& segment, const 
   } catch (const hdf5::Refused& error) {
     throw results::ResultsError("cannot write " + path + ": HDF5 could not store " + error.what() + " (disk full?)");
   }
-  results::commit_file(path);
+  // No fsync: the record survives the process, whose frames survive the machine; waiting for the disk would cost the
+  // run.
+  if (std::rename(results::aside(path).c_str(), path.c_str()) != 0) results::throw_file_error(path, errno);
 }
 
 RecordSegment read_segment(const std::string& path, RecordLabel& label) {

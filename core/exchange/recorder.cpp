@@ -198,7 +198,9 @@ void Recorder::note(const std::string& participant, Sender sender, const Message
 }
 
 Recorder::Statistics Recorder::close() {
+  const auto start = Clock::now();
   state_->finish();
+  state_->statistics.closing_seconds = Seconds(Clock::now() - start).count();
   if (state_->error) std::rethrow_exception(state_->error);
   return state_->statistics;
 }

@@ -12,9 +12,9 @@
 namespace polynya::exchange {
 
 /// Writes down what participants and coupler say to each other, in files that are closed and renamed one after the
-/// other: RECORD/ice-00000.h5, RECORD/ice-00001.h5 and so on (layout: docs/debugging.md). So all but the latest is readable
-/// whenever the process is killed. A thread of its own compresses and writes; the run waits only when that thread falls
-/// behind by more than the queue.
+/// other: RECORD/ice-00000.h5, RECORD/ice-00001.h5 and so on (layout: docs/debugging.md). So all but the latest is
+/// readable whenever the process is killed. A thread of its own compresses and writes; the run waits only when that
+/// thread falls behind by more than the queue.
 class Recorder {
  public:
   struct Options {
@@ -26,12 +26,14 @@ class Recorder {
     std::optional<std::array<double, 6>> region;             ///< m, see RecordRegion; such a record cannot be replayed
     double segment_seconds = 2;  ///< longest wall time between two files; a hundredth of the run if that is more
     std::size_t segment_bytes = 32 << 20;  ///< of one file before compression
-    std::size_t queue_bytes = 256 << 20;
+    std::size_t queue_bytes = 128 << 20;
   };
 
   struct Statistics {
-    std::size_t messages = 0, bytes = 0;          ///< before compression
-    double noting_seconds = 0, busy_seconds = 0;  ///< of the run's thread, of the recorder's processor time
+    std::size_t messages = 0, bytes = 0;  ///< before compression
+    double noting_seconds = 0;            ///< of the run's thread, in note()
+    double closing_seconds = 0;           ///< of the run's thread, in close()
+    double busy_seconds = 0;              ///< processor time of the recorder's thread
   };
 
   explicit Recorder(Options options);
