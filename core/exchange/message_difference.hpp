@@ -11,7 +11,8 @@ struct MessageDifference {
   std::string largest;  ///< the same for the largest difference
   /// The largest difference: of a number in the header relative to the recorded one, of a value of an array relative to
   /// the largest magnitude in the recorded array; infinite where something is missing, new, of another size or no
-  /// floating-point number.
+  /// floating-point number. Numbers of `finished` have no size: they follow from what was compared before, and some are
+  /// errors about 0, where nothing is relative.
   double size = 0;
 };
 
