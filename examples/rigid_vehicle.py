@@ -127,8 +127,9 @@ def main():
                 "surface.triangles": np.array(surface["triangles"], "i4"), "surface.radius": zeros,
                 "surface.volume": zeros}
     coupler = Coupler(options.connect, options.run, options.name)
+    # Any step will do, so a free window is a step like the others.
     coupler.send("ready", {**body.state(), **topology}, role="solid", body="vehicle", stable_step=STABLE_STEP,
-                 account=ACCOUNT)
+                 can_subdivide=True, account=ACCOUNT)
     begin, _ = coupler.receive("begin")
     time, dt, window, finish = begin["time"], begin["step"], 0, False
     body.push(np.zeros_like(body.arms), 0, dt)

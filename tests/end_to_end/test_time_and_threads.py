@@ -100,7 +100,7 @@ class WhereTheTimeGoes(unittest.TestCase):
         self.assertTrue(0 < self.summary["exchange_share"] < 1)
 
     def test_memory_is_that_of_the_process_not_of_the_launcher(self):
-        """The launcher holds numpy and more, some 55 MB, which getrusage would pass on; the coupler needs about 12 MB."""
+        """The launcher holds some 55 MB, which getrusage would pass on; the coupler needs about 12 MB."""
         self.assertLess(self.summary["processes"]["coupler"]["peak_memory"], 30e6)
         self.assertGreater(self.summary["processes"]["coupler"]["peak_memory"], 3e6)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from launcher import critical_path
 
 # One span by hand, in s. The coupler sends loads at 1 and waits for both solids. The structure answers at 2, the ice at
-# 3; messages take 0.1. The coupler cuts until 4 and waits for the fluid, which works from 4.1 to 8, then until 9 itself.
+# 3; messages take 0.1. The coupler cuts until 4 and waits for the fluid, which works from 4.1 to 8; then it works to 9.
 WAITS = {
     "coupler": [(0.5, 0.9, "ice"), (1.0, 2.1, "structure"), (2.1, 3.1, "ice"), (4.0, 8.1, "fluid"), (9.0, 11.1, "ice")],
     "structure": [(0.0, 0.2, "coupler"), (0.4, 1.1, "coupler"), (2.5, 9.1, "coupler")],
