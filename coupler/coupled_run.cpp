@@ -36,8 +36,8 @@ struct Run {
   Ledger ledger;
   LedgerFile ledger_file;
   std::array<WorkMeter, body_count> work;
-  contact::PenaltyContact contact;
-  bool contact_ready = false, topology_changed = false;
+  std::optional<contact::PenaltyContact> contact;
+  bool topology_changed = false;
   std::optional<OverlapExchange> overlap;
   std::optional<Monitor> monitor;
   double planned_step = 0, first_planned_step = 0, next_frame_time = 0;
@@ -48,14 +48,18 @@ struct Run {
   std::string end;  ///< why the run ends; empty while it goes on
 
   Run(const scene::Scene& s, std::string run_folder, exchange::Hub& hub)
-      : scene(s), folder(std::move(run_folder)), conversation{hub, {}, std::nullopt}, ledger_file(folder),
-        contact(contact_law(s)) {}
+      : scene(s), folder(std::move(run_folder)), conversation{hub, {}, std::nullopt}, ledger_file(folder) {}
 
-  static contact::PenaltyLaw contact_law(const scene::Scene& s) {
-    contact::PenaltyLaw law;
+  contact::ContactLaw contact_law(const contact::Body& vehicle, const contact::Body& ice) const {
+    const scene::Scene& s = scene;
+    contact::ContactLaw law;
     law.friction = s.effect("friction") ? s.contact.friction : 0.0;
+    law.damping = s.contact.damping;
     law.stiffness_factor = s.contact.stiffness_factor;
-    law.depth_limit = s.resolution.ice_element;
+    law.depth_limit = 0.5 * s.resolution.ice_element;
+    law.skin = 0.25 * s.resolution.ice_element;
+    law.two_way = s.contact.two_way == "on" || (s.contact.two_way == "auto" && contact::is_finer(vehicle, ice));
+    law.edges = s.contact.edges != "off";
     law.mirror = {s.symmetry == scene::Symmetry::quarter, s.symmetry != scene::Symmetry::full};
     return law;
   }
@@ -152,23 +156,31 @@ void begin(Run& run, const std::vector<std::string>& names) {
   begin_solids(run.conversation, run.keeper.step);
 }
 
+contact::Body as_contact_body(const SolidSide& side) {
+  return {side.positions, side.velocities, side.masses, side.radii, side.ids, side.triangles};
+}
+
 void find_contact(Run& run) {
   SolidSide* vehicle = run.conversation.find(Body::vehicle);
   SolidSide* ice = run.conversation.find(Body::ice);
   for (SolidSide& side : run.conversation.solids) side.contact_force.assign(3 * side.vertices(), 0.0);
   if (!vehicle || !ice) return;
   const auto lap = run.watch.lap("contact");
-  if (!run.contact_ready || vehicle->topology_changed) {
-    run.contact.set_topology(vehicle->triangles, vehicle->vertices());
-    run.contact_ready = true;
+  const contact::Body hull = as_contact_body(*vehicle), plate = as_contact_body(*ice);
+  const bool first = !run.contact;
+  if (first) {
+    const contact::ContactLaw law = run.contact_law(hull, plate);
+    run.contact.emplace(law);
+    spdlog::info("contact: the ice's points against the hull{}{}", law.two_way ? ", the hull's against the ice" : "",
+                 law.edges ? ", edges against edges" : "");
   }
-  const contact::ContactForces& forces = run.contact.evaluate(
-      {vehicle->positions, vehicle->velocities, vehicle->masses, vehicle->triangles},
-      {ice->positions, ice->velocities, ice->masses, ice->radii, ice->ids}, run.keeper.step);
+  if (first || vehicle->topology_changed || ice->topology_changed) run.contact->set_topology(hull, plate);
+  const contact::ContactForces& forces = run.contact->evaluate(hull, plate, run.keeper.step);
   vehicle->contact_force = forces.primary;
   ice->contact_force = forces.secondary;
   run.ledger.contact_stored = forces.stored_energy;
-  run.ledger.contact_friction += forces.friction_power * run.keeper.step;
+  run.ledger.contact_friction += forces.friction_loss;
+  run.ledger.contact_damping += forces.damping_loss;
   run.ledger.contact_released += forces.released_energy;
   run.monitor->note_contact(forces);
 }
