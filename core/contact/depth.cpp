@@ -39,7 +39,7 @@ Vector3 vertex_normal(const Body& surface, const SurfaceTopology& topology, std:
 Depth around_feature(const Vector3& offset, const Vector3& outward, double smallest, double radius) {
   const double distance = norm(offset), length = norm(outward);
   const bool inside = dot(offset, outward) < 0;
-  Depth depth{radius + (inside ? distance : -distance), {}, inside};
+  Depth depth{radius + (inside ? distance : -distance), {}, inside, 0};
   if (distance > smallest)
     depth.push = ((inside ? -1.0 : 1.0) / distance) * offset;
   else if (length > 0)
@@ -51,10 +51,10 @@ Depth beyond_rim(const Vector3& offset, const Vector3& normal, double smallest, 
   const double above = dot(offset, normal), distance = norm(offset);
   const Vector3 aside = offset - above * normal;
   const double beyond = norm(aside);
-  if (beyond <= smallest) return {radius - above, normal, above < 0};
-  if (above >= 0 || !was_inside) return {radius - distance, (1 / distance) * offset, false};
+  if (beyond <= smallest) return {radius - above, normal, above < 0, 0};
+  if (above >= 0 || !was_inside) return {radius - distance, (1 / distance) * offset, false, beyond};
   const FadedDepth faded = faded_depth(-above, beyond, radius);
-  return {faded.value, faded.push_out * normal + (faded.push_aside / beyond) * aside, true};
+  return {faded.value, faded.push_out * normal + (faded.push_aside / beyond) * aside, true, beyond};
 }
 
 /// Local number of an edge's first vertex, 3 if the feature is no edge.
@@ -91,7 +91,7 @@ Depth depth_at(const Body& surface, const SurfaceTopology& topology, std::array<
   if (foot.feature == Feature::face) {
     const Vector3 normal = face_normal(surface, triangle);
     const double above = dot(point - a, normal);
-    return {radius - above, normal, above < 0};
+    return {radius - above, normal, above < 0, 0};
   }
   const Vector3 offset = point - (foot.weights[0] * a + foot.weights[1] * b + foot.weights[2] * c);
   const double smallest = 1e-10 * norm(b - a);

@@ -10,6 +10,7 @@ struct Depth {
   double value = 0;     ///< m, positive in contact; continuous as the foot passes from feature to feature
   Vector3 push{};       ///< minus the gradient of the depth: the force on the point is k value push
   bool inside = false;  ///< the point itself is behind the surface, or beyond a rim and came there from behind it
+  double beyond = 0;    ///< m, how far beyond a rim, in the plane of the face
 };
 
 /// Behind a face: radius + depth along its normal. At a smooth edge or vertex: radius -+ distance, the sign by

@@ -29,15 +29,17 @@ Ends ends_before(const Body& body, const ConvexEdge& edge, const Ends& now, doub
 
 bool within(double fraction) { return fraction >= 0 && fraction <= 1; }
 
-/// Is the direction well between the normals of the edge's two faces?
+constexpr double cone_tolerance = 0.02;  // rad
+constexpr double rounding = 1e-14;       // of coordinates: edges that touch count as apart
+
+/// Is the direction between the normals of the edge's two faces?
 bool in_cone(const Body& body, const ConvexEdge& edge, const Vector3& direction) {
   const Ends ends = ends_of(body, edge);
   const Vector3 along = ends.b - ends.a;
   const Vector3 n1 = face_normal(body, static_cast<std::size_t>(edge.faces[0])),
                 n2 = face_normal(body, static_cast<std::size_t>(edge.faces[1]));
   const Vector3 into_first = (1 / norm(along)) * cross(n1, along), into_second = (-1 / norm(along)) * cross(n2, along);
-  const double margin = -0.1 * norm(cross(n1, n2));
-  return dot(direction, into_first) < margin && dot(direction, into_second) < margin;
+  return dot(direction, into_first) < cone_tolerance && dot(direction, into_second) < cone_tolerance;
 }
 
 /// The pair's common normal, pointing out of the primary body.
@@ -47,18 +49,19 @@ Vector3 outward(const Body& primary, const ConvexEdge& edge, const Vector3& norm
   return dot(normal, faces) < 0 ? -1.0 * normal : normal;
 }
 
-/// Did the two edges pass through each other in the last step, from outside?
-bool passed(const Body& primary, const Body& secondary, const ConvexEdge& e, const ConvexEdge& f, double dt) {
+/// Where the two edges are closest, if they passed through each other in the last step from outside; else not crossing.
+ClosestOnLines passage(const Body& primary, const Body& secondary, const ConvexEdge& e, const ConvexEdge& f, double dt) {
   const Ends a = ends_of(primary, e), b = ends_of(secondary, f);
   const ClosestOnLines now = closest_on_lines(a.a, a.b, b.a, b.b);
-  if (!now.crossing || !within(now.s) || !within(now.t)) return false;
+  if (!now.crossing || !within(now.s) || !within(now.t)) return {};
   const Vector3 n = outward(primary, e, now.normal);
-  if (dot(now.apart, n) >= 0) return false;
+  if (dot(now.apart, n) >= 0) return {};
   const Ends a0 = ends_before(primary, e, a, dt), b0 = ends_before(secondary, f, b, dt);
   const ClosestOnLines before = closest_on_lines(a0.a, a0.b, b0.a, b0.b);
-  if (!before.crossing) return false;
+  if (!before.crossing) return {};
   const Vector3 m = dot(before.normal, n) < 0 ? -1.0 * before.normal : before.normal;
-  return dot(before.apart, m) >= -1e-9 * norm(a.b - a.a) && in_cone(primary, e, n) && in_cone(secondary, f, -1.0 * n);
+  if (dot(before.apart, m) < -rounding * (norm(a.a) + norm(a.b - a.a))) return {};
+  return in_cone(primary, e, n) && in_cone(secondary, f, -1.0 * n) ? now : ClosestOnLines{};
 }
 
 void edges_at_vertices(const SurfaceTopology& topology, std::vector<std::int32_t>& start, std::vector<std::int32_t>& list) {
@@ -71,6 +74,10 @@ void edges_at_vertices(const SurfaceTopology& topology, std::vector<std::int32_t
   for (std::size_t e = 0; e < topology.convex_edges.size(); ++e)
     for (const std::int32_t v : topology.convex_edges[e].vertices)
       list[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = static_cast<std::int32_t>(e);
+}
+
+std::size_t nearer_end(const ConvexEdge& edge, double fraction) {
+  return static_cast<std::size_t>(edge.vertices[fraction < 0.5 ? 0 : 1]);
 }
 
 /// How far outside [0, 1] a fraction lies, signed.
@@ -229,8 +236,16 @@ bool EdgeContact::hold(const Body& primary, const Body& secondary, const Surface
   return true;
 }
 
+void EdgeContact::mark_vertices_in_contact(const Body& primary, const Body& secondary, std::span<const Touch> touches) {
+  touched_first_.assign(primary.vertex_count(), 0);
+  touched_second_.assign(secondary.vertex_count(), 0);
+  for (const Touch& touch : touches)
+    (touch.swapped ? touched_first_ : touched_second_)[static_cast<std::size_t>(touch.pushed[0])] = 1;
+}
+
 void EdgeContact::find(const Body& primary, const Body& secondary, const SurfaceTopology& first,
                        const SurfaceTopology& second, double dt, std::vector<Touch>& touches) {
+  mark_vertices_in_contact(primary, secondary, touches);
   next_.clear();
   Touch touch;
   for (Pair& pair : held_) {
@@ -252,7 +267,10 @@ void EdgeContact::find(const Body& primary, const Body& secondary, const Surface
   for (std::size_t f = 0; f + 1 < start_.size(); ++f)
     for (std::int32_t k = start_[f]; k < start_[f + 1]; ++k) {
       Pair pair{list_[static_cast<std::size_t>(k)], static_cast<std::int32_t>(f), {}};
-      if (!passed(primary, secondary, first.convex_edges[static_cast<std::size_t>(pair.first)], second.convex_edges[f], dt))
+      const ConvexEdge& edge = first.convex_edges[static_cast<std::size_t>(pair.first)];
+      const ConvexEdge& other = second.convex_edges[f];
+      const ClosestOnLines at = passage(primary, secondary, edge, other, dt);
+      if (!at.crossing || touched_first_[nearer_end(edge, at.s)] != 0 || touched_second_[nearer_end(other, at.t)] != 0)
         continue;
       if (std::binary_search(next_.begin(), next_.begin() + static_cast<std::ptrdiff_t>(kept), pair, before)) continue;
       pair.state.feature = pair.first;

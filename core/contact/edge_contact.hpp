@@ -10,8 +10,9 @@ namespace polynya::contact {
 
 /// Contact of convex edges of two surfaces that cross each other between their vertices, where no vertex is inside the
 /// other body. At least one of the two turns by more than 30 degrees. A pair is born when the edges pass through each
-/// other in a step, both moving straight, with a common normal that lies well within the normals of both edges' faces:
-/// so edges that lie on a face are left to the vertices. It holds until they separate, goes over to the next edge at a
+/// other in a step, both moving straight, with a common normal that lies between the normals of both edges' faces,
+/// and the end of either that is nearer to the crossing is not in contact itself: what vertices hold is left to them. It
+/// holds until they separate, goes over to the next edge at a
 /// vertex, and fades beyond the end of an edge as a point does beyond a rim (faded_depth). Edges that are nearly
 /// parallel, or cross each other when first seen, are left to the vertices too.
 class EdgeContact {
@@ -22,6 +23,7 @@ class EdgeContact {
   /// Candidates within reach (m) as of now.
   void search(const Body& primary, const Body& secondary, const SurfaceTopology& first, const SurfaceTopology& second,
               double reach);
+  /// Appends to the contacts of points, which are there already.
   void find(const Body& primary, const Body& secondary, const SurfaceTopology& first, const SurfaceTopology& second,
             double dt, std::vector<Touch>& touches);
   /// As PointContact::quiet_time, for the candidates; pairs beyond them are farther than `reach`.
@@ -43,7 +45,10 @@ class EdgeContact {
   bool hold(const Body& primary, const Body& secondary, const SurfaceTopology& first, const SurfaceTopology& second,
             Pair& pair, Touch& touch) const;
 
+  void mark_vertices_in_contact(const Body& primary, const Body& secondary, std::span<const Touch> touches);
+
   std::vector<Pair> held_, next_;
+  std::vector<std::uint8_t> touched_first_, touched_second_;
   double dropped_energy_ = 0;
   std::vector<Names> names_first_, names_second_;
   std::vector<std::int32_t> start_{0}, list_, at_vertex_start_first_, at_vertex_first_, at_vertex_start_second_,

@@ -16,7 +16,7 @@ namespace polynya::contact {
 /// Stiffness is not counted twice: it belongs to vertices, in proportion to their mass, so one surface's vertices
 /// together make up the whole of a contact's stiffness per area. Looked at both ways, every vertex gets half of it: the
 /// sum over an area is the mean of what the two surfaces would have alone, whatever their meshes. Particles, which have
-/// no triangles, keep the whole. Edges come in only where no face's normal is the contact's (EdgeContact).
+/// no triangles, keep the whole. Edges come in only where their nearer ends are not in contact (EdgeContact).
 ///
 /// Candidates are kept until vertices may have moved by the skin relative to the other body (MotionWatch); forces
 /// have the same bits as with a search in every step. The same holds for any number of threads. Once warm, evaluate

@@ -11,7 +11,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int longest_walk = 64;  // triangles that a held point may pass in a step
-constexpr double seam = 1e-9;     // in barycentric coordinates: nothing slips through between two triangles
+// In parts of a triangle: nothing slips through between two triangles, and a corner that comes down on a corner is caught
+// though rounding or its own widening puts it a little beside.
+constexpr double seam = 1e-6;
+constexpr double rounding = 1e-14;  // of coordinates: what lies on a face counts as outside
 
 struct Corners {
   Vector3 a, b, c;
@@ -46,7 +49,7 @@ double passage(const Corners& now, const Corners& before, const Vector3& p, cons
   const double length = norm(m);
   if (length == 0) return infinity;
   const double at_end = dot(p - now.a, n) / length, at_start = dot(p_before - before.a, m) / length;
-  if (at_end >= 0 || at_start < -seam * std::sqrt(length)) return infinity;
+  if (at_end >= 0 || at_start < -rounding * (norm(p) + std::sqrt(length))) return infinity;
   const double time = std::clamp(at_start / (at_start - at_end), 0.0, 1.0);
   const auto between = [&](const Vector3& old, const Vector3& present) { return (1 - time) * old + time * present; };
   const Corners x{between(before.a, now.a), between(before.b, now.b), between(before.c, now.c)};
@@ -161,7 +164,10 @@ bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTo
   }
   const Depth depth =
       depth_at(surface, topology, settings_.mirror, triangle, foot, p, points.radii[point], state.inside);
-  if (!(depth.value > 0)) {
+  // Caught a little beside a face, it is held without force until it is deeper than it is beside.
+  const Corners x = corners_of(surface, triangle);
+  const bool beside = depth.inside && depth.beyond > 0 && depth.beyond < 2 * seam * norm(x.b - x.a);
+  if (!(depth.value > 0) && !beside) {
     const double dropped = state.dropped + ended(state, depth.value);
     state = {};
     state.dropped = dropped;
@@ -176,7 +182,7 @@ bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTo
   touch.opposed = {v[0], v[1], v[2]};
   touch.opposed_weights = foot.weights;
   touch.push = depth.push;
-  touch.depth = depth.value;
+  touch.depth = std::max(0.0, depth.value);
   if (state.anchor >= 0)
     touch.slip = tangential(p - point_on(corners_of(surface, static_cast<std::size_t>(state.anchor)), state.anchor_weights),
                             touch.push);
