@@ -84,8 +84,9 @@ Rest stack(const std::array<double, 3>& widths, double damping, int windows) {
 
   Rest rest;
   // Four corners of an eighth of the mass M each: between two blocks factor (M/16)/dt^2 per corner, both ways together, and
-  // the same on the floor, whose vertices are elsewhere. 3 + 2 + 1 blocks' weight on three joints.
-  rest.static_depth = 6 * 4 * gravity * dt * dt / law.stiffness_factor;
+  // the same on the floor, whose vertices are elsewhere. 3 + 2 + 1 blocks' weight on three joints. And the
+  // blocks shorten under 2.5 + 1.5 + 0.5 blocks' weight.
+  rest.static_depth = 6 * 4 * gravity * dt * dt / law.stiffness_factor + 4.5 * density * gravity * edge * edge / youngs_modulus;
   rest.swing = rest.static_depth * density * edge * edge * edge * gravity * 3;
   double start = 0;
   std::vector<double> halfway;
