@@ -30,7 +30,8 @@ bool Exclusion::excludes(const Body& surface, const SurfaceTopology& topology, s
                          std::size_t triangle) const {
   if (!point_origins.empty()) {
     const Vector3 d = row(point_origins, point) - row(triangle_origins, triangle);
-    if (dot(d, d) < radius * radius) return true;
+    const double reach = point_reaches[point] + triangle_reaches[triangle];
+    if (dot(d, d) < reach * reach) return true;
   }
   if (!neighbours) return false;
   for (std::size_t k = 0; k < 3; ++k)

@@ -9,13 +9,14 @@
 namespace polynya::contact {
 
 /// Which triangles a point of the same body must not meet: those around itself (its own and those that share a vertex
-/// with them), and those whose origin lies within `radius` of the point's own. Origins are places in the reference
-/// configuration; leave them empty to have only the first rule.
+/// with them), and those whose origin is nearer to the point's own than the sum of both reaches. Origins are places in
+/// the reference configuration; leave them empty to have only the first rule.
 struct Exclusion {
   bool neighbours = false;
-  double radius = 0;                         ///< m
-  std::span<const double> point_origins{};     ///< [nv][3]
-  std::span<const double> triangle_origins{};  ///< [nt][3]
+  std::span<const double> point_origins{};      ///< [nv][3] m
+  std::span<const double> point_reaches{};      ///< [nv] m
+  std::span<const double> triangle_origins{};   ///< [nt][3] m
+  std::span<const double> triangle_reaches{};   ///< [nt] m
 
   bool any() const { return neighbours || !point_origins.empty(); }
   bool excludes(const Body& surface, const SurfaceTopology& topology, std::size_t point, std::size_t triangle) const;

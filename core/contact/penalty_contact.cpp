@@ -95,16 +95,15 @@ double PenaltyContact::quiet_time(const Body& primary, const Body& secondary, do
 SelfContact::SelfContact(const ContactLaw& law)
     : law_(law), margin_(law.depth_limit), points_({law.depth_limit, law.mirror, false}), springs_(law) {}
 
-void SelfContact::set_topology(const Body& body, const Exclusion& exclusion) {
+void SelfContact::set_topology(const Body& body) {
   springs_.settle_as_before(last_step_, touches_);
   touches_.clear();
-  exclusion_ = exclusion;
   topology_ = make_surface_topology(body.triangles, body.positions, law_.mirror);
   points_.set_topology(body, body);
   outdated_ = true;
 }
 
-const ContactForces& SelfContact::evaluate(const Body& body, double dt) {
+const ContactForces& SelfContact::evaluate(const Body& body, const Exclusion& exclusion, double dt) {
   springs_.settle(body, body, dt, touches_);
   if (outdated_) {
     watch_.restart(body, body, margin_, skin_of(law_));
@@ -112,12 +111,12 @@ const ContactForces& SelfContact::evaluate(const Body& body, double dt) {
   }
   if (outdated_ || watch_.outdated(body, body, dt, margin_)) {
     margin_ = std::max(law_.depth_limit, spare * watch_.step_motion());
-    points_.search(body, body, topology_, exclusion_, margin_ + skin_of(law_));
+    points_.search(body, body, topology_, exclusion, margin_ + skin_of(law_));
     watch_.restart(body, body, margin_ + largest_radius(body), skin_of(law_));
     outdated_ = false;
   }
   touches_.clear();
-  points_.find(body, body, topology_, exclusion_, dt, 1.0, touches_);
+  points_.find(body, body, topology_, exclusion, dt, 0.5, touches_);  // nodes are looked at on both sides of a gap
   springs_.apply(body, body, dt, touches_, forces_);
   forces_.released_energy += points_.take_dropped_energy();
   for (std::size_t k = 0; k < forces_.secondary.size(); ++k) forces_.secondary[k] += forces_.primary[k];

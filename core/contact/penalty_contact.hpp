@@ -61,16 +61,15 @@ class PenaltyContact {
 class SelfContact {
  public:
   explicit SelfContact(const ContactLaw& law);
-  /// As PenaltyContact's; `exclusion` must stay valid until the next call.
-  void set_topology(const Body& body, const Exclusion& exclusion);
-  /// Forces on the body's vertices are in `secondary`, `primary` is empty.
-  const ContactForces& evaluate(const Body& body, double dt);
+  void set_topology(const Body& body);
+  /// As PenaltyContact's, the same exclusion until the topology changes. Forces on the body's vertices are in
+  /// `secondary`, `primary` is empty.
+  const ContactForces& evaluate(const Body& body, const Exclusion& exclusion, double dt);
 
  private:
   ContactLaw law_;
   double margin_ = 0;
   SurfaceTopology topology_;
-  Exclusion exclusion_;
   PointContact points_;
   MotionWatch watch_;
   ContactSprings springs_;

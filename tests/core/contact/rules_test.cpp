@@ -276,10 +276,10 @@ TEST(Rules, TouchesOnlyTrianglesThatAreNotItsOwn) {
   const std::size_t tip = strip.add_point({0.55, 0.03, 0.01}, {0, 0, -20}, 1);
   SelfContact contact(law);
   const Exclusion exclusion{.neighbours = true};
-  contact.set_topology(strip.body(), exclusion);
-  EXPECT_EQ(contact.evaluate(strip.body(), 1e-3).active, 0u);
+  contact.set_topology(strip.body());
+  EXPECT_EQ(contact.evaluate(strip.body(), exclusion, 1e-3).active, 0u);
   strip.drift(1e-3);
-  const ContactForces& forces = contact.evaluate(strip.body(), 1e-3);
+  const ContactForces& forces = contact.evaluate(strip.body(), exclusion, 1e-3);
   EXPECT_EQ(forces.active, 1u);
   EXPECT_GT(forces.secondary[3 * tip + 2], 0);
   double sum = 0;
@@ -287,7 +287,7 @@ TEST(Rules, TouchesOnlyTrianglesThatAreNotItsOwn) {
   EXPECT_NEAR(sum, 0, 1e-12 * forces.secondary[3 * tip + 2]);
 }
 
-TEST(Rules, OriginsWithinTheRadiusOfExclusionDoNotTouch) {
+TEST(Rules, WhatWasBondedAtItsOriginDoesNotTouch) {
   Mesh floor = floor_of(1, 4);
   const std::size_t particle = floor.add_point({0.1, 0.1, 0.3}, {0, 0, -400}, 1, 0.1);
   std::vector<double> points(3 * floor.count(), 100.0), triangles(floor.triangles.size(), 0.0);
@@ -295,9 +295,12 @@ TEST(Rules, OriginsWithinTheRadiusOfExclusionDoNotTouch) {
     Mesh now = floor;
     points[3 * particle] = origin, points[3 * particle + 1] = points[3 * particle + 2] = 0;
     SelfContact contact(law);
-    contact.set_topology(now.body(), {.neighbours = false, .radius = 1, .point_origins = points, .triangle_origins = triangles});
-    contact.evaluate(now.body(), 1e-3);
+    const std::vector<double> point_reach(now.count(), 0.4), triangle_reach(now.body().triangle_count(), 0.6);
+    const Exclusion exclusion{.neighbours = false, .point_origins = points, .point_reaches = point_reach,
+                              .triangle_origins = triangles, .triangle_reaches = triangle_reach};
+    contact.set_topology(now.body());
+    contact.evaluate(now.body(), exclusion, 1e-3);
     now.drift(0.6e-3);
-    EXPECT_EQ(contact.evaluate(now.body(), 1e-3).active, origin > 1 ? 1u : 0u);
+    EXPECT_EQ(contact.evaluate(now.body(), exclusion, 1e-3).active, origin > 1 ? 1u : 0u);
   }
 }
