@@ -24,8 +24,8 @@ struct OwnContact {
   std::vector<double> point_origins, point_reaches, triangle_origins, triangle_reaches;
 };
 
-/// Adds the forces of the present configuration, reached in a step of dt (s), to the ice's pair forces and to the forces
-/// on its particles, and keeps the energies. Nothing happens before there are particles.
+/// Adds the forces of the present configuration, reached in a step of dt (s), to the ice's pair forces and to the
+/// forces on its particles, and keeps the energies. Nothing happens before there are particles.
 void add_own_contact(IceBody& ice, double dt);
 
 }  // namespace polynya::ice

@@ -20,7 +20,8 @@ bool share_a_triangle(const Body& surface, const SurfaceTopology& topology, std:
 
 Box box_of(const Body& surface, std::size_t t) {
   Box box;
-  for (std::size_t k = 0; k < 3; ++k) box.include(row(surface.positions, static_cast<std::size_t>(surface.triangles[3 * t + k])));
+  for (std::size_t k = 0; k < 3; ++k)
+    box.include(row(surface.positions, static_cast<std::size_t>(surface.triangles[3 * t + k])));
   return box;
 }
 
@@ -40,8 +41,8 @@ bool Exclusion::excludes(const Body& surface, const SurfaceTopology& topology, s
 }
 
 void Candidates::search(const Body& points, const Body& surface, const SurfaceTopology& topology,
-                        const Exclusion& exclusion, double reach, const Box& region, std::size_t begin,
-                        std::size_t end, Found& found) const {
+                        const Exclusion& exclusion, double reach, const Box& region, std::size_t begin, std::size_t end,
+                        Found& found) const {
   found.points.clear();
   found.counts.clear();
   found.triangles.clear();

@@ -13,10 +13,10 @@ namespace polynya::contact {
 /// the reference configuration; leave them empty to have only the first rule.
 struct Exclusion {
   bool neighbours = false;
-  std::span<const double> point_origins{};      ///< [nv][3] m
-  std::span<const double> point_reaches{};      ///< [nv] m
-  std::span<const double> triangle_origins{};   ///< [nt][3] m
-  std::span<const double> triangle_reaches{};   ///< [nt] m
+  std::span<const double> point_origins{};     ///< [nv][3] m
+  std::span<const double> point_reaches{};     ///< [nv] m
+  std::span<const double> triangle_origins{};  ///< [nt][3] m
+  std::span<const double> triangle_reaches{};  ///< [nt] m
 
   bool any() const { return neighbours || !point_origins.empty(); }
   bool excludes(const Body& surface, const SurfaceTopology& topology, std::size_t point, std::size_t triangle) const;

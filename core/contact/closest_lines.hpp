@@ -6,8 +6,8 @@ namespace polynya::contact {
 /// Where two straight lines a0 + s (a1 - a0) and b0 + t (b1 - b0) come closest.
 struct ClosestOnLines {
   double s = 0, t = 0;
-  Vector3 apart{};   ///< from the place on a to that on b
-  Vector3 normal{};  ///< unit vector perpendicular to both
+  Vector3 apart{};        ///< from the place on a to that on b
+  Vector3 normal{};       ///< unit vector perpendicular to both
   bool crossing = false;  ///< false: nearly parallel (sine below 0.05), nothing else is set
 };
 

@@ -42,10 +42,13 @@ ContactSprings::ContactSprings(const ContactLaw& law) : law_(law) {
                                 std::to_string(law.damping * std::sqrt(law.stiffness_factor)));
 }
 
-void ContactSprings::limit_stiffness(const Body& primary, const Body& secondary, double dt, std::vector<Touch>& touches) {
+void ContactSprings::limit_stiffness(const Body& primary, const Body& secondary, double dt,
+                                     std::vector<Touch>& touches) {
   load_primary_.assign(primary.vertex_count(), 0.0);
   load_secondary_.assign(secondary.vertex_count(), 0.0);
-  const auto load = [&](bool of_secondary) -> std::vector<double>& { return of_secondary ? load_secondary_ : load_primary_; };
+  const auto load = [&](bool of_secondary) -> std::vector<double>& {
+    return of_secondary ? load_secondary_ : load_primary_;
+  };
   const auto mass = [&](bool of_secondary, std::int32_t v) {
     return (of_secondary ? secondary : primary).masses[static_cast<std::size_t>(v)];
   };
@@ -55,7 +58,9 @@ void ContactSprings::limit_stiffness(const Body& primary, const Body& secondary,
     for_each_vertex(touch, [&](bool s, std::int32_t v, double w) { compliance += w * w / mass(s, v); });
     touch.stiffness = touch.share * rate / compliance;
     if (!touch.state->born) touch.stiffness = std::min(touch.stiffness, touch.state->stiffness);
-    for_each_vertex(touch, [&](bool s, std::int32_t v, double w) { load(s)[static_cast<std::size_t>(v)] += touch.stiffness * std::abs(w); });
+    for_each_vertex(touch, [&](bool s, std::int32_t v, double w) {
+      load(s)[static_cast<std::size_t>(v)] += touch.stiffness * std::abs(w);
+    });
   }
   for (Touch& touch : touches) {
     double scale = 1;
@@ -95,13 +100,16 @@ Vector3 ContactSprings::friction(const Body& primary, const Body& secondary, Tou
 void ContactSprings::push(const Body& primary, const Body& secondary, double dt, Touch& touch, ContactForces& forces) {
   PairState& state = *touch.state;
   if (state.born) {
-    if (state.accepted) state.offset = std::clamp(touch.depth - state.inherited_force / touch.stiffness, 0.0, touch.depth);
-    if (state.inherited_force > 0) forces.released_energy -= held_energy(state, touch.stiffness, touch.depth - state.offset);
+    if (state.accepted)
+      state.offset = std::clamp(touch.depth - state.inherited_force / touch.stiffness, 0.0, touch.depth);
+    if (state.inherited_force > 0)
+      forces.released_energy -= held_energy(state, touch.stiffness, touch.depth - state.offset);
     state.stiffness = touch.stiffness;
   }
   state.offset = std::min(state.offset, touch.depth);
   const double compressed = touch.depth - state.offset;
-  forces.released_energy += held_energy(state, state.stiffness, compressed) - held_energy(state, touch.stiffness, compressed);
+  forces.released_energy +=
+      held_energy(state, state.stiffness, compressed) - held_energy(state, touch.stiffness, compressed);
   state.stiffness = touch.stiffness;
 
   touch.approach = -dot(touch.push, relative_velocity(primary, secondary, touch));
@@ -144,7 +152,8 @@ void ContactSprings::apply(const Body& primary, const Body& secondary, double dt
 void ContactSprings::settle(const Body& primary, const Body& secondary, double dt, std::span<const Touch> touches) {
   for (const Touch& touch : touches)
     if (touch.damping_force != 0)
-      settled_damping_ -= 0.5 * dt * touch.damping_force * dot(touch.push, relative_velocity(primary, secondary, touch));
+      settled_damping_ -=
+          0.5 * dt * touch.damping_force * dot(touch.push, relative_velocity(primary, secondary, touch));
 }
 
 void ContactSprings::settle_as_before(double dt, std::span<const Touch> touches) {

@@ -24,19 +24,20 @@ struct ContactForces {
   std::vector<double> secondary;  ///< [ns][3] N
   double stored_energy = 0;       ///< J, in the normal and tangential springs now
   double friction_loss = 0;       ///< J, dissipated by sliding since the evaluation before; never negative
-  double damping_loss = 0;        ///< J, likewise by damping, as a leapfrog's trapezoidal work; its sum is never negative
-  double released_energy = 0;     ///< J, given up since then when stiffness had to fall or a pair vanished; see below
-  std::size_t active = 0;         ///< pairs in contact
-  double deepest = 0;             ///< m, depth that exerts a force
+  double damping_loss = 0;     ///< J, likewise by damping, as a leapfrog's trapezoidal work; its sum is never negative
+  double released_energy = 0;  ///< J, given up since then when stiffness had to fall or a pair vanished; see below
+  std::size_t active = 0;      ///< pairs in contact
+  double deepest = 0;          ///< m, depth that exerts a force
 };
 
 /// Forces of all contacts of one time.
 ///
-/// Stiffness of a pair: share x stiffness_factor x reduced mass / dt^2, then scaled down so that at every vertex the sum
-/// of stiffness x weight stays below stiffness_factor x mass / dt^2. With u the motion along the pushes, sum k (g.u)^2 <=
-/// sum over vertices of u^2 sum k |g| |g|_1, |g|_1 = 2 (Gershgorin), so the largest eigenvalue of all contacts together
-/// is below 2 stiffness_factor / dt^2 however many press on one vertex (one pair alone: stiffness_factor / dt^2). A pair
-/// keeps the stiffness it was born with unless it must fall; what the springs held more is booked as released.
+/// Stiffness of a pair: share x stiffness_factor x reduced mass / dt^2, then scaled down so that at every vertex the
+/// sum of stiffness x weight stays below stiffness_factor x mass / dt^2. With u the motion along the pushes, sum k
+/// (g.u)^2 <= sum over vertices of u^2 sum k |g| |g|_1, |g|_1 = 2 (Gershgorin), so the largest eigenvalue of all
+/// contacts together is below 2 stiffness_factor / dt^2 however many press on one vertex (one pair alone:
+/// stiffness_factor / dt^2). A pair keeps the stiffness it was born with unless it must fall; what the springs held
+/// more is booked as released.
 ///
 /// A step in which a pair comes into contact or parts is only partly one of contact, but a leapfrog's work takes the
 /// force as linear over it: depth d and gap g before or after, the bodies lose k d g / 2 more than the spring stores,

@@ -60,14 +60,20 @@ Depth beyond_rim(const Vector3& offset, const Vector3& normal, double smallest, 
 /// Local number of an edge's first vertex, 3 if the feature is no edge.
 std::size_t edge_of(Feature feature) {
   switch (feature) {
-    case Feature::edge01: return 0;
-    case Feature::edge12: return 1;
-    case Feature::edge20: return 2;
-    default: return 3;
+    case Feature::edge01:
+      return 0;
+    case Feature::edge12:
+      return 1;
+    case Feature::edge20:
+      return 2;
+    default:
+      return 3;
   }
 }
 
-std::size_t vertex_of(Feature feature) { return feature == Feature::vertex0 ? 0 : feature == Feature::vertex1 ? 1 : 2; }
+std::size_t vertex_of(Feature feature) {
+  return feature == Feature::vertex0 ? 0 : feature == Feature::vertex1 ? 1 : 2;
+}
 
 }  // namespace
 
@@ -101,7 +107,8 @@ Depth depth_at(const Body& surface, const SurfaceTopology& topology, std::array<
     return around_feature(offset, edge_normal(surface, topology, mirror, triangle, edge), smallest, radius);
   }
   const auto v = static_cast<std::size_t>(surface.triangles[3 * triangle + vertex_of(foot.feature)]);
-  if (topology.rim_vertex[v] != 0) return beyond_rim(offset, face_normal(surface, triangle), smallest, radius, was_inside);
+  if (topology.rim_vertex[v] != 0)
+    return beyond_rim(offset, face_normal(surface, triangle), smallest, radius, was_inside);
   return around_feature(offset, vertex_normal(surface, topology, mirror, v), smallest, radius);
 }
 

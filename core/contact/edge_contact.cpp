@@ -27,7 +27,16 @@ Ends ends_before(const Body& body, const ConvexEdge& edge, const Ends& now, doub
           now.b - dt * row(body.velocities, static_cast<std::size_t>(edge.vertices[1]))};
 }
 
-bool within(double fraction) { return fraction >= 0 && fraction <= 1; }
+Box box_of(const Body& body, const ConvexEdge& edge) {
+  Box box;
+  box.include(ends_of(body, edge).a);
+  box.include(ends_of(body, edge).b);
+  return box;
+}
+
+bool within(double fraction) {
+  return fraction >= 0 && fraction <= 1;
+}
 
 constexpr double cone_tolerance = 0.02;  // rad
 constexpr double rounding = 1e-14;       // of coordinates: edges that touch count as apart
@@ -50,7 +59,8 @@ Vector3 outward(const Body& primary, const ConvexEdge& edge, const Vector3& norm
 }
 
 /// Where the two edges are closest, if they passed through each other in the last step from outside; else not crossing.
-ClosestOnLines passage(const Body& primary, const Body& secondary, const ConvexEdge& e, const ConvexEdge& f, double dt) {
+ClosestOnLines passage(const Body& primary, const Body& secondary, const ConvexEdge& e, const ConvexEdge& f,
+                       double dt) {
   const Ends a = ends_of(primary, e), b = ends_of(secondary, f);
   const ClosestOnLines now = closest_on_lines(a.a, a.b, b.a, b.b);
   if (!now.crossing || !within(now.s) || !within(now.t)) return {};
@@ -64,7 +74,8 @@ ClosestOnLines passage(const Body& primary, const Body& secondary, const ConvexE
   return in_cone(primary, e, n) && in_cone(secondary, f, -1.0 * n) ? now : ClosestOnLines{};
 }
 
-void edges_at_vertices(const SurfaceTopology& topology, std::vector<std::int32_t>& start, std::vector<std::int32_t>& list) {
+void edges_at_vertices(const SurfaceTopology& topology, std::vector<std::int32_t>& start,
+                       std::vector<std::int32_t>& list) {
   start.assign(topology.fan_start.size(), 0);
   for (const ConvexEdge& edge : topology.convex_edges)
     for (const std::int32_t v : edge.vertices) ++start[static_cast<std::size_t>(v) + 1];
@@ -81,7 +92,9 @@ std::size_t nearer_end(const ConvexEdge& edge, double fraction) {
 }
 
 /// How far outside [0, 1] a fraction lies, signed.
-double overshoot(double fraction) { return fraction < 0 ? fraction : fraction > 1 ? fraction - 1 : 0.0; }
+double overshoot(double fraction) {
+  return fraction < 0 ? fraction : fraction > 1 ? fraction - 1 : 0.0;
+}
 
 }  // namespace
 
@@ -130,12 +143,6 @@ void EdgeContact::set_topology(const Body& primary, const Body& secondary, const
 
 void EdgeContact::search(const Body& primary, const Body& secondary, const SurfaceTopology& first,
                          const SurfaceTopology& second, double reach) {
-  const auto box_of = [](const Body& body, const ConvexEdge& edge) {
-    Box box;
-    box.include(ends_of(body, edge).a);
-    box.include(ends_of(body, edge).b);
-    return box;
-  };
   start_.assign(1, 0);
   list_.clear();
   boxes_.resize(first.convex_edges.size());
@@ -206,8 +213,10 @@ bool EdgeContact::hold(const Body& primary, const Body& secondary, const Surface
       pair.second = f;
     }
   };
-  go_over(closest.s, first.convex_edges[static_cast<std::size_t>(pair.first)], at_vertex_start_first_, at_vertex_first_, true);
-  go_over(closest.t, second.convex_edges[static_cast<std::size_t>(pair.second)], at_vertex_start_second_, at_vertex_second_, false);
+  go_over(closest.s, first.convex_edges[static_cast<std::size_t>(pair.first)], at_vertex_start_first_, at_vertex_first_,
+          true);
+  go_over(closest.t, second.convex_edges[static_cast<std::size_t>(pair.second)], at_vertex_start_second_,
+          at_vertex_second_, false);
 
   const ConvexEdge& e = first.convex_edges[static_cast<std::size_t>(pair.first)];
   const ConvexEdge& f = second.convex_edges[static_cast<std::size_t>(pair.second)];
@@ -289,54 +298,36 @@ void EdgeContact::find(const Body& primary, const Body& secondary, const Surface
 double EdgeContact::quiet_time(const Body& primary, const Body& secondary, const SurfaceTopology& first,
                                const SurfaceTopology& second, double reach, double acceleration) const {
   if (!held_.empty()) return 0;
+  if (first.convex_edges.empty()) return infinity;
   Box box, speeds;
   for (const ConvexEdge& edge : first.convex_edges)
     for (const std::int32_t v : edge.vertices) {
       box.include(row(primary.positions, static_cast<std::size_t>(v)));
       speeds.include(row(primary.velocities, static_cast<std::size_t>(v)));
     }
-  if (first.convex_edges.empty()) return infinity;
   const Vector3 drift = 0.5 * (speeds.low + speeds.high);
   const double spread = 0.5 * norm(speeds.high - speeds.low);
   double quiet = infinity;
   for (std::size_t f = 0; f + 1 < start_.size(); ++f) {
     const ConvexEdge& edge = second.convex_edges[f];
-    const Ends b = ends_of(secondary, edge);
+    const Box own = box_of(secondary, edge);
     double gap = reach;
-    for (std::int32_t k = start_[f]; k < start_[f + 1]; ++k) {
-      // The box that encloses one edge is no farther away than the edge.
-      const Ends a = ends_of(primary, first.convex_edges[static_cast<std::size_t>(list_[static_cast<std::size_t>(k)])]);
-      Box other, own;
-      other.include(a.a);
-      other.include(a.b);
-      own.include(b.a);
-      own.include(b.b);
-      double squared = 0;
-      for (std::size_t d = 0; d < 3; ++d) {
-        const double away = std::max({0.0, other.low[d] - own.high[d], own.low[d] - other.high[d]});
-        squared += away * away;
-      }
-      gap = std::min(gap, std::sqrt(squared));
-    }
-    Box own;
-    own.include(b.a);
-    own.include(b.b);
-    double squared = 0;
-    for (std::size_t d = 0; d < 3; ++d) {
-      const double away = std::max({0.0, box.low[d] - own.high[d], own.low[d] - box.high[d]});
-      squared += away * away;
-    }
-    gap = std::max(gap, std::sqrt(squared));
-    if (gap <= 0) return 0;
-    const double speed = spread + std::max(norm(row(secondary.velocities, static_cast<std::size_t>(edge.vertices[0])) - drift),
-                                           norm(row(secondary.velocities, static_cast<std::size_t>(edge.vertices[1])) - drift));
-    const double divisor = speed + std::sqrt(speed * speed + 2 * acceleration * gap);
-    quiet = std::min(quiet, divisor > 0 ? 2 * gap / divisor : infinity);
+    for (std::int32_t k = start_[f]; k < start_[f + 1]; ++k)
+      // The box that encloses an edge is no farther away than the edge.
+      gap = std::min(
+          gap, own.distance(
+                   box_of(primary, first.convex_edges[static_cast<std::size_t>(list_[static_cast<std::size_t>(k)])])));
+    double speed = 0;
+    for (const std::int32_t v : edge.vertices)
+      speed = std::max(speed, norm(row(secondary.velocities, static_cast<std::size_t>(v)) - drift));
+    quiet = std::min(quiet, time_to_close(std::max(gap, own.distance(box)), speed + spread, acceleration));
   }
   return quiet;
 }
 
-double EdgeContact::take_dropped_energy() { return std::exchange(dropped_energy_, 0.0); }
+double EdgeContact::take_dropped_energy() {
+  return std::exchange(dropped_energy_, 0.0);
+}
 
 void EdgeContact::set_anchor(const Body& primary, const Body& secondary, const Touch& touch, const Vector3& slip) {
   const auto at = [](const Body& body, std::int32_t v) { return row(body.positions, static_cast<std::size_t>(v)); };

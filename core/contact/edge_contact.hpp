@@ -11,10 +11,10 @@ namespace polynya::contact {
 /// Contact of convex edges of two surfaces that cross each other between their vertices, where no vertex is inside the
 /// other body. At least one of the two turns by more than 30 degrees. A pair is born when the edges pass through each
 /// other in a step, both moving straight, with a common normal that lies between the normals of both edges' faces,
-/// and the end of either that is nearer to the crossing is not in contact itself: what vertices hold is left to them. It
-/// holds until they separate, goes over to the next edge at a
-/// vertex, and fades beyond the end of an edge as a point does beyond a rim (faded_depth). Edges that are nearly
-/// parallel, or cross each other when first seen, are left to the vertices too.
+/// and the end of either that is nearer to the crossing is not in contact itself: what vertices hold is left to them.
+/// It holds until they separate, goes over to the next edge at a vertex, and fades beyond the end of an edge as a point
+/// does beyond a rim (faded_depth). Edges that are nearly parallel, or cross each other when first seen, are left to
+/// the vertices too.
 class EdgeContact {
  public:
   /// Keeps the pairs whose vertices go on to exist.

@@ -47,8 +47,8 @@ void MotionWatch::restart(const Body& primary, const Body& secondary, double rea
 
 bool MotionWatch::outdated(const Body& primary, const Body& secondary, double dt, double margin) {
   if (primary_.size() != primary.positions.size() || secondary_.size() != secondary.positions.size()) return true;
-  const Spread moved = spread(primary.vertex_count(),
-                              [&](std::size_t v) { return row(primary.positions, v) - row(primary_, v); });
+  const Spread moved =
+      spread(primary.vertex_count(), [&](std::size_t v) { return row(primary.positions, v) - row(primary_, v); });
   const Spread step = spread(primary.vertex_count(), [&](std::size_t v) { return dt * row(primary.velocities, v); });
   compute::for_chunks(allowance_.size(), chunk, [&](std::size_t begin, std::size_t end) {
     double excess = 0, motion = 0;

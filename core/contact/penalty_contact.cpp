@@ -7,7 +7,9 @@ namespace {
 
 constexpr double spare = 2;  // margin over the fastest motion of a step, when that exceeds the depth limit
 
-double skin_of(const ContactLaw& law) { return law.skin > 0 ? law.skin : law.depth_limit; }
+double skin_of(const ContactLaw& law) {
+  return law.skin > 0 ? law.skin : law.depth_limit;
+}
 
 /// Length that a tenth of the edges fall below, m.
 double short_edge(const Body& body) {
@@ -49,7 +51,8 @@ void PenaltyContact::set_topology(const Body& primary, const Body& secondary) {
     primary_triangles_.assign(primary.triangles.begin(), primary.triangles.end());
   }
   secondary_points_.set_topology(secondary, primary);
-  if (law_.two_way || law_.edges) second_ = make_surface_topology(secondary.triangles, secondary.positions, law_.mirror);
+  if (law_.two_way || law_.edges)
+    second_ = make_surface_topology(secondary.triangles, secondary.positions, law_.mirror);
   if (law_.two_way) primary_points_.set_topology(primary, secondary);
   if (law_.edges) edges_.set_topology(primary, secondary, first_, second_);
   outdated_ = true;
@@ -79,16 +82,18 @@ const ContactForces& PenaltyContact::evaluate(const Body& primary, const Body& s
   if (law_.two_way) primary_points_.find(primary, secondary, second_, {}, dt, share, touches_);
   if (law_.edges) edges_.find(primary, secondary, first_, second_, dt, touches_);
   springs_.apply(primary, secondary, dt, touches_, forces_);
-  forces_.released_energy += secondary_points_.take_dropped_energy() + primary_points_.take_dropped_energy() +
-                             edges_.take_dropped_energy();
+  forces_.released_energy +=
+      secondary_points_.take_dropped_energy() + primary_points_.take_dropped_energy() + edges_.take_dropped_energy();
   last_step_ = dt;
   return forces_;
 }
 
 double PenaltyContact::quiet_time(const Body& primary, const Body& secondary, double acceleration) const {
   double quiet = secondary_points_.quiet_time(secondary, primary, law_.depth_limit, acceleration);
-  if (law_.two_way) quiet = std::min(quiet, primary_points_.quiet_time(primary, secondary, law_.depth_limit, acceleration));
-  if (law_.edges) quiet = std::min(quiet, edges_.quiet_time(primary, secondary, first_, second_, law_.depth_limit, acceleration));
+  if (law_.two_way)
+    quiet = std::min(quiet, primary_points_.quiet_time(primary, secondary, law_.depth_limit, acceleration));
+  if (law_.edges)
+    quiet = std::min(quiet, edges_.quiet_time(primary, secondary, first_, second_, law_.depth_limit, acceleration));
   return quiet;
 }
 

@@ -10,8 +10,8 @@ namespace polynya::contact {
 
 /// Penalty contact of two bodies, or of a body with itself.
 ///
-/// What is looked at: the secondary's vertices and particles against the primary's triangles, always; with `two_way` the
-/// primary's vertices against the secondary's triangles as well; with `edges` crossing edges.
+/// What is looked at: the secondary's vertices and particles against the primary's triangles, always; with `two_way`
+/// the primary's vertices against the secondary's triangles as well; with `edges` crossing edges.
 ///
 /// Stiffness is not counted twice: it belongs to vertices, in proportion to their mass, so one surface's vertices
 /// together make up the whole of a contact's stiffness per area. Looked at both ways, every vertex gets half of it: the
@@ -28,13 +28,14 @@ class PenaltyContact {
   /// Call before the first evaluation, and when vertices, particles or triangles of a body are others than before.
   void set_topology(const Body& primary, const Body& secondary);
 
-  /// Forces for the configuration given, which the last step of dt (s) led to with the velocities given; to be held over
-  /// the next step, of about the same length. Positions in the last step are taken to be straight: x - dt v.
+  /// Forces for the configuration given, which the last step of dt (s) led to with the velocities given; to be held
+  /// over the next step, of about the same length. Positions in the last step are taken to be straight: x - dt v.
   const ContactForces& evaluate(const Body& primary, const Body& secondary, double dt);
 
-  /// Lower bound of the time (s) until anything can touch that evaluate looks at, from the configuration evaluated last:
-  /// every gap over the largest speed at which it can close, if no vertex is accelerated by more than `acceleration`
-  /// (m/s^2) relative to any of the other body. 0 while anything touches. Edges count only if they are looked at.
+  /// Lower bound of the time (s) until anything can touch that evaluate looks at, from the configuration evaluated
+  /// last: every gap over the largest speed at which it can close, if no vertex is accelerated by more than
+  /// `acceleration` (m/s^2) relative to any of the other body. 0 while anything touches. Edges count only if they are
+  /// looked at.
   double quiet_time(const Body& primary, const Body& secondary, double acceleration) const;
 
   std::size_t searches() const { return searches_; }  ///< so far

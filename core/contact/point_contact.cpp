@@ -11,8 +11,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int longest_walk = 64;  // triangles that a held point may pass in a step
-// In parts of a triangle: nothing slips through between two triangles, and a corner that comes down on a corner is caught
-// though rounding or its own widening puts it a little beside.
+// In parts of a triangle: nothing slips through between two triangles, and a corner that comes down on a corner is
+// caught though rounding or its own widening puts it a little beside.
 constexpr double seam = 1e-6;
 constexpr double rounding = 1e-14;  // of coordinates: what lies on a face counts as outside
 
@@ -22,7 +22,8 @@ struct Corners {
 
 Corners corners_of(const Body& surface, std::size_t t) {
   const std::int32_t* v = &surface.triangles[3 * t];
-  return {row(surface.positions, static_cast<std::size_t>(v[0])), row(surface.positions, static_cast<std::size_t>(v[1])),
+  return {row(surface.positions, static_cast<std::size_t>(v[0])),
+          row(surface.positions, static_cast<std::size_t>(v[1])),
           row(surface.positions, static_cast<std::size_t>(v[2]))};
 }
 
@@ -57,9 +58,13 @@ double passage(const Corners& now, const Corners& before, const Vector3& p, cons
   return w[0] >= -seam && w[1] >= -seam && w[2] >= -seam ? time : infinity;
 }
 
-Vector3 tangential(const Vector3& v, const Vector3& normal) { return v - (dot(v, normal) / dot(normal, normal)) * normal; }
+Vector3 tangential(const Vector3& v, const Vector3& normal) {
+  return v - (dot(v, normal) / dot(normal, normal)) * normal;
+}
 
-Vector3 point_on(const Corners& x, const Vector3& w) { return w[0] * x.a + w[1] * x.b + w[2] * x.c; }
+Vector3 point_on(const Corners& x, const Vector3& w) {
+  return w[0] * x.a + w[1] * x.b + w[2] * x.c;
+}
 
 std::uint64_t key_of(std::span<const std::int64_t> ids) {
   std::uint64_t key = 1469598103934665603u;
@@ -69,60 +74,69 @@ std::uint64_t key_of(std::span<const std::int64_t> ids) {
 
 }  // namespace
 
-void PointContact::set_topology(const Body& points, const Body& surface) {
-  std::unordered_map<std::int64_t, std::size_t> old_point;
-  for (std::size_t i = 0; i < ids_.size(); ++i) old_point[ids_[i]] = i;
-  std::unordered_map<std::uint64_t, std::int32_t> new_triangle;
-  std::vector<std::int64_t> triangle_ids(surface.triangles.size());
-  for (std::size_t k = 0; k < triangle_ids.size(); ++k) triangle_ids[k] = surface.ids[static_cast<std::size_t>(surface.triangles[k])];
-  if (!held_.empty())
+std::vector<std::int32_t> PointContact::renumber_triangles(const Body& surface) {
+  std::vector<std::int64_t> ids(surface.triangles.size());
+  for (std::size_t k = 0; k < ids.size(); ++k) ids[k] = surface.ids[static_cast<std::size_t>(surface.triangles[k])];
+  std::vector<std::int32_t> renumbered(triangle_ids_.size() / 3, -1);
+  if (!held_.empty()) {
+    std::unordered_map<std::uint64_t, std::int32_t> known;
     for (std::size_t t = 0; t < surface.triangle_count(); ++t)
-      new_triangle[key_of(std::span(triangle_ids).subspan(3 * t, 3))] = static_cast<std::int32_t>(t);
-  const auto renumbered = [&](std::int32_t old) {
-    if (old < 0) return old;
-    const auto found = new_triangle.find(key_of(std::span(triangle_ids_).subspan(3 * static_cast<std::size_t>(old), 3)));
-    return found == new_triangle.end() ? -1 : found->second;
-  };
-  std::vector<PairState> states(points.vertex_count());
-  fresh_.assign(points.vertex_count(), 1);
-  std::vector<std::uint8_t> kept(states_.size(), 0);
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const auto found = old_point.find(points.ids[i]);
-    if (found == old_point.end()) continue;
-    fresh_[i] = 0;
-    PairState state = states_[found->second];
-    if (state.feature < 0) continue;
-    state.feature = renumbered(state.feature);
-    if (state.feature < 0) continue;
-    state.anchor = renumbered(state.anchor);
-    if (state.anchor < 0) {
-      dropped_energy_ += 0.5 * state.stiffness * state.elastic_slip * state.elastic_slip;
-      state.friction_force = state.elastic_slip = 0;
-    }
-    kept[found->second] = 1;
-    states[i] = state;
+      known[key_of(std::span(ids).subspan(3 * t, 3))] = static_cast<std::int32_t>(t);
+    for (std::size_t t = 0; t < renumbered.size(); ++t)
+      if (const auto found = known.find(key_of(std::span(triangle_ids_).subspan(3 * t, 3))); found != known.end())
+        renumbered[t] = found->second;
   }
+  triangle_ids_ = std::move(ids);
+  return renumbered;
+}
+
+bool PointContact::follow(PairState& state, std::span<const std::int32_t> renumbered) {
+  const auto now = [&](std::int32_t old) { return old < 0 ? old : renumbered[static_cast<std::size_t>(old)]; };
+  state.feature = now(state.feature);
+  if (state.feature < 0) return false;
+  state.anchor = now(state.anchor);
+  if (state.anchor < 0) {
+    dropped_energy_ += 0.5 * state.stiffness * state.elastic_slip * state.elastic_slip;
+    state.friction_force = state.elastic_slip = 0;
+  }
+  return true;
+}
+
+void PointContact::set_topology(const Body& points, const Body& surface) {
+  std::unordered_map<std::int64_t, std::size_t> new_point;
+  for (std::size_t i = 0; i < points.vertex_count(); ++i) new_point[points.ids[i]] = i;
+  const std::vector<std::int32_t> renumbered = renumber_triangles(surface);
+  fresh_.assign(points.vertex_count(), 1);
+  for (const std::int64_t id : ids_)
+    if (const auto found = new_point.find(id); found != new_point.end()) fresh_[found->second] = 0;
+  std::vector<PairState> states(points.vertex_count());
   lost_.clear();
   for (std::size_t k = 0; k < held_.size(); ++k) {
-    const auto i = static_cast<std::size_t>(held_[k]);
-    if (kept[i] != 0) continue;
-    dropped_energy_ += states_[i].held_energy;
-    if (states_[i].normal_force > 0) lost_.push_back({row(last_positions_, k), states_[i].normal_force});
-  }
-  held_.clear();
-  last_positions_.clear();
-  for (std::size_t i = 0; i < states.size(); ++i)
-    if (states[i].feature >= 0) held_.push_back(static_cast<std::int32_t>(i));
-  for (const std::int32_t i : held_) {
-    const Vector3 p = row(points.positions, static_cast<std::size_t>(i));
-    last_positions_.insert(last_positions_.end(), p.begin(), p.end());
+    const auto old = static_cast<std::size_t>(held_[k]);
+    PairState state = states_[old];
+    const auto found = new_point.find(ids_[old]);
+    if (found != new_point.end() && follow(state, renumbered)) {
+      states[found->second] = state;
+      continue;
+    }
+    dropped_energy_ += states_[old].held_energy;
+    if (state.normal_force > 0) lost_.push_back({row(last_positions_, k), state.normal_force});
   }
   states_ = std::move(states);
   ids_.assign(points.ids.begin(), points.ids.end());
-  triangle_ids_ = std::move(triangle_ids);
+  held_.clear();
+  last_positions_.clear();
+  for (std::size_t i = 0; i < states_.size(); ++i)
+    if (states_[i].feature >= 0) remember_held(points, i);
 }
 
-bool PointContact::begin(std::size_t triangle, std::size_t point, bool inside, bool accepted) {
+void PointContact::remember_held(const Body& points, std::size_t point) {
+  held_.push_back(static_cast<std::int32_t>(point));
+  const Vector3 p = row(points.positions, point);
+  last_positions_.insert(last_positions_.end(), p.begin(), p.end());
+}
+
+void PointContact::begin(std::size_t triangle, std::size_t point, bool inside, bool accepted) {
   PairState& state = states_[point];
   const double dropped = state.dropped;
   state = {};
@@ -131,7 +145,6 @@ bool PointContact::begin(std::size_t triangle, std::size_t point, bool inside, b
   state.born = true;
   state.inside = inside;
   state.accepted = accepted;
-  return true;
 }
 
 bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTopology& topology,
@@ -184,8 +197,8 @@ bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTo
   touch.push = depth.push;
   touch.depth = std::max(0.0, depth.value);
   if (state.anchor >= 0)
-    touch.slip = tangential(p - point_on(corners_of(surface, static_cast<std::size_t>(state.anchor)), state.anchor_weights),
-                            touch.push);
+    touch.slip = tangential(
+        p - point_on(corners_of(surface, static_cast<std::size_t>(state.anchor)), state.anchor_weights), touch.push);
   touch.state = &state;
   return true;
 }
@@ -211,13 +224,15 @@ bool PointContact::find_one(const Body& points, const Body& surface, const Surfa
     if (c.squared_distance < least || (c.squared_distance == least && !near))
       least = c.squared_distance, foot = c, nearest = t, near = true;
   }
-  if (first < infinity)
-    return begin(through, point, true, false) && hold(points, surface, topology, exclusion, point, touch);
+  if (first < infinity) {
+    begin(through, point, true, false);
+    return hold(points, surface, topology, exclusion, point, touch);
+  }
   if (!near) return false;
   const Depth depth = depth_at(surface, topology, settings_.mirror, nearest, foot, p, radius, false);
   if (!(depth.value > 0)) return false;
-  return begin(nearest, point, depth.inside, depth.inside || fresh_[point] != 0) &&
-         hold(points, surface, topology, exclusion, point, touch);
+  begin(nearest, point, depth.inside, depth.inside || fresh_[point] != 0);
+  return hold(points, surface, topology, exclusion, point, touch);
 }
 
 void PointContact::inherit(const Body& points, std::vector<Touch>& touches, std::size_t first) {
@@ -254,8 +269,8 @@ void PointContact::find(const Body& points, const Body& surface, const SurfaceTo
     for (std::size_t k = begin; k < end; ++k) {
       const auto list = candidate_of_[k] < 0 ? std::span<const std::int32_t>()
                                              : candidates_.of(static_cast<std::size_t>(candidate_of_[k]));
-      touched_[k] = find_one(points, surface, topology, exclusion, dt, static_cast<std::size_t>(active_[k]), list,
-                             found_[k]);
+      touched_[k] =
+          find_one(points, surface, topology, exclusion, dt, static_cast<std::size_t>(active_[k]), list, found_[k]);
     }
   });
   held_.clear();
@@ -266,9 +281,7 @@ void PointContact::find(const Body& points, const Body& surface, const SurfaceTo
     dropped_energy_ += states_[i].dropped;
     states_[i].dropped = 0;
     if (touched_[k] == 0) continue;
-    held_.push_back(active_[k]);
-    const Vector3 p = row(points.positions, i);
-    last_positions_.insert(last_positions_.end(), p.begin(), p.end());
+    remember_held(points, i);
     touches.push_back(found_[k]);
     // A loose particle has no surface of its own whose other side could carry half of the contact.
     touches.back().share = points.radii[i] > 0 ? 1 : share;
@@ -299,17 +312,15 @@ double PointContact::quiet_time(const Body& points, const Body& surface, double 
         const Corners x = corners_of(surface, static_cast<std::size_t>(t));
         distance = std::min(distance, std::sqrt(closest_point_on_triangle(p, x.a, x.b, x.c).squared_distance));
       }
-    const double gap = std::max({distance, box.distance(p)}) - points.radii[i];
-    if (gap <= 0) return 0;
-    const double speed = norm(row(points.velocities, i) - drift) + spread;
-    // gap = speed t + acceleration t^2 / 2, solved so that nothing cancels
-    const double divisor = speed + std::sqrt(speed * speed + 2 * acceleration * gap);
-    quiet = std::min(quiet, divisor > 0 ? 2 * gap / divisor : infinity);
+    const double gap = std::max(distance, box.distance(p)) - points.radii[i];
+    quiet = std::min(quiet, time_to_close(gap, norm(row(points.velocities, i) - drift) + spread, acceleration));
   }
   return quiet;
 }
 
-double PointContact::take_dropped_energy() { return std::exchange(dropped_energy_, 0.0); }
+double PointContact::take_dropped_energy() {
+  return std::exchange(dropped_energy_, 0.0);
+}
 
 void PointContact::set_anchor(const Body& points, const Body& surface, const Touch& touch, const Vector3& slip) {
   PairState& state = *touch.state;

@@ -59,15 +59,19 @@ class PointContact {
                 double dt, std::size_t point, std::span<const std::int32_t> candidates, Touch& touch);
   bool hold(const Body& points, const Body& surface, const SurfaceTopology& topology, const Exclusion& exclusion,
             std::size_t point, Touch& touch);
-  bool begin(std::size_t triangle, std::size_t point, bool inside, bool accepted);
+  void begin(std::size_t triangle, std::size_t point, bool inside, bool accepted);
+  /// For each triangle of the old surface its number in the new one, -1 if it vanished.
+  std::vector<std::int32_t> renumber_triangles(const Body& surface);
+  bool follow(PairState& state, std::span<const std::int32_t> renumbered);
+  void remember_held(const Body& points, std::size_t point);
   void inherit(const Body& points, std::vector<Touch>& touches, std::size_t first);
 
   Settings settings_;
   Candidates candidates_;
   std::vector<PairState> states_;
-  std::vector<std::uint8_t> fresh_;      // [point] seen for the first time
+  std::vector<std::uint8_t> fresh_;  // [point] seen for the first time
   std::vector<std::int64_t> ids_;
-  std::vector<double> last_positions_;   // of the points that touched, for forces that vanish
+  std::vector<double> last_positions_;  // of the points that touched, for forces that vanish
   std::vector<std::int64_t> triangle_ids_;
   std::vector<std::int32_t> held_, active_, candidate_of_;
   std::vector<Touch> found_;

@@ -8,13 +8,13 @@
 namespace polynya::contact {
 namespace {
 
-constexpr double rim_cosine = 0.70710678118654757;       // 45 degrees
-constexpr double sharp_cosine = 0.86602540378443865;     // 30 degrees
-constexpr double turned_cosine = 0.99984769515639127;    // 1 degree
+constexpr double rim_cosine = 0.70710678118654757;     // 45 degrees
+constexpr double sharp_cosine = 0.86602540378443865;   // 30 degrees
+constexpr double turned_cosine = 0.99984769515639127;  // 1 degree
 
 struct HalfEdge {
-  std::uint64_t key;   // of both directions
-  std::int32_t slot;   // 3 x triangle + edge
+  std::uint64_t key;  // of both directions
+  std::int32_t slot;  // 3 x triangle + edge
   bool forward;
 };
 
@@ -37,10 +37,12 @@ void pair_faces(std::span<const std::int32_t> triangles, SurfaceTopology& topolo
   topology.neighbour.assign(triangles.size() / 3, {-1, -1, -1});
   std::vector<HalfEdge> edges = sorted_half_edges(triangles);
   for (std::size_t a = 0; a < edges.size(); ++a) {
-    auto& mine = topology.neighbour[static_cast<std::size_t>(edges[a].slot / 3)][static_cast<std::size_t>(edges[a].slot % 3)];
+    auto& mine =
+        topology.neighbour[static_cast<std::size_t>(edges[a].slot / 3)][static_cast<std::size_t>(edges[a].slot % 3)];
     if (mine >= 0) continue;
     for (std::size_t b = a + 1; b < edges.size() && edges[b].key == edges[a].key; ++b) {
-      auto& other = topology.neighbour[static_cast<std::size_t>(edges[b].slot / 3)][static_cast<std::size_t>(edges[b].slot % 3)];
+      auto& other =
+          topology.neighbour[static_cast<std::size_t>(edges[b].slot / 3)][static_cast<std::size_t>(edges[b].slot % 3)];
       if (other >= 0 || edges[b].forward == edges[a].forward) continue;
       mine = edges[b].slot / 3;
       other = edges[a].slot / 3;
@@ -75,11 +77,12 @@ void classify_edges(std::span<const std::int32_t> triangles, std::span<const dou
       } else {
         const auto o = static_cast<std::size_t>(other);
         const Vector3 mine = unit_normal(triangles, positions, t), theirs = unit_normal(triangles, positions, o);
-        const Vector3 along = row(positions, static_cast<std::size_t>(to)) - row(positions, static_cast<std::size_t>(from));
+        const Vector3 along =
+            row(positions, static_cast<std::size_t>(to)) - row(positions, static_cast<std::size_t>(from));
         const bool convex = dot(cross(mine, theirs), along) > 0;
         const double cosine = dot(mine, theirs);
         if (convex && cosine < rim_cosine) kind = EdgeKind::rim;
-        if (convex && cosine < turned_cosine && static_cast<std::size_t>(other) > t)
+        if (convex && cosine<turned_cosine&& static_cast<std::size_t>(other)> t)
           topology.convex_edges.push_back({{from, to}, {static_cast<std::int32_t>(t), other}, cosine < sharp_cosine});
       }
       if (kind == EdgeKind::rim)
@@ -99,7 +102,8 @@ std::vector<std::int32_t> number_patches(const SurfaceTopology& topology) {
       open.pop_back();
       for (std::size_t e = 0; e < 3; ++e) {
         const std::int32_t other = topology.neighbour[t][e];
-        if (other < 0 || topology.edge_kind[t][e] == EdgeKind::rim || patch[static_cast<std::size_t>(other)] >= 0) continue;
+        if (other < 0 || topology.edge_kind[t][e] == EdgeKind::rim || patch[static_cast<std::size_t>(other)] >= 0)
+          continue;
         patch[static_cast<std::size_t>(other)] = count;
         open.push_back(other);
       }
@@ -138,7 +142,8 @@ void make_fans(std::span<const std::int32_t> triangles, std::size_t vertices, st
   fan.resize(triangles.size());
   std::vector<std::int32_t> next(start.begin(), start.end() - 1);
   for (std::size_t slot = 0; slot < triangles.size(); ++slot)
-    fan[static_cast<std::size_t>(next[static_cast<std::size_t>(triangles[slot])]++)] = static_cast<std::int32_t>(slot / 3);
+    fan[static_cast<std::size_t>(next[static_cast<std::size_t>(triangles[slot])]++)] =
+        static_cast<std::int32_t>(slot / 3);
 }
 
 SurfaceTopology make_surface_topology(std::span<const std::int32_t> triangles, std::span<const double> positions,

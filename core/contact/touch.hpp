@@ -8,28 +8,27 @@ namespace polynya::contact {
 
 /// What a pair in contact remembers.
 struct PairState {
-  std::int32_t feature = -1;     ///< triangle (or edge) of the surface that holds the point; -1: free
-  bool born = false;             ///< the law has not seen it yet
-  bool inside = false;           ///< the point itself was behind the surface
-  bool accepted = false;         ///< found inside without having come through the surface
-  double stiffness = 0;          ///< N/m
-  double offset = 0;             ///< m, depth that exerts no force
-  double inherited_force = 0;    ///< N, of vanished neighbours whose place the point takes
-  double normal_force = 0;       ///< N, in the last step
-  double friction_force = 0;     ///< N, likewise
-  double elastic_slip = 0;       ///< m, length of the tangential spring
-  double compressed = 0;         ///< m, depth beyond the offset
-  double held_energy = 0;        ///< J, in both springs
-  double dropped = 0;            ///< J, see ended(), not yet booked
-  std::int32_t anchor = -1;      ///< triangle on which the tangential spring is fixed; -1: not yet
-  Vector3 anchor_weights{};      ///< where: barycentric (edges: fractions along both)
+  std::int32_t feature = -1;   ///< triangle (or edge) of the surface that holds the point; -1: free
+  bool born = false;           ///< the law has not seen it yet
+  bool inside = false;         ///< the point itself was behind the surface
+  bool accepted = false;       ///< found inside without having come through the surface
+  double stiffness = 0;        ///< N/m
+  double offset = 0;           ///< m, depth that exerts no force
+  double inherited_force = 0;  ///< N, of vanished neighbours whose place the point takes
+  double normal_force = 0;     ///< N, in the last step
+  double friction_force = 0;   ///< N, likewise
+  double elastic_slip = 0;     ///< m, length of the tangential spring
+  double compressed = 0;       ///< m, depth beyond the offset
+  double held_energy = 0;      ///< J, in both springs
+  double dropped = 0;          ///< J, see ended(), not yet booked
+  std::int32_t anchor = -1;    ///< triangle on which the tangential spring is fixed; -1: not yet
+  Vector3 anchor_weights{};    ///< where: barycentric (edges: fractions along both)
 };
 
-/// Energy to book when a pair parts, its depth now being `depth` (m, not above 0): what the tangential spring holds, less
-/// what the last step gives to the bodies beyond what the normal spring held (see ContactSprings).
+/// Energy to book when a pair parts, its depth now being `depth` (m, not above 0): what the tangential spring holds,
+/// less what the last step gives to the bodies beyond what the normal spring held (see ContactSprings).
 inline double ended(const PairState& state, double depth) {
-  return 0.5 * state.stiffness *
-         (state.elastic_slip * state.elastic_slip - state.compressed * (state.offset - depth));
+  return 0.5 * state.stiffness * (state.elastic_slip * state.elastic_slip - state.compressed * (state.offset - depth));
 }
 
 /// One contact in one step: up to two vertices are pushed along `push`, up to three of the other body against it.

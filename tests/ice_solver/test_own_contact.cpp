@@ -24,8 +24,10 @@ struct Thrown {
   double dt;
   double radius = 0.5 * size;
 
-  explicit Thrown(bool own_contact, double gap, double speed) : ice(make_ice(bar_options(own_contact))), dt(start(ice)) {
-    const auto corner = elements_where(ice, [](const auto& x) { return x[0] < size && x[1] < size && x[2] > 3 * size; });
+  explicit Thrown(bool own_contact, double gap, double speed)
+      : ice(make_ice(bar_options(own_contact))), dt(start(ice)) {
+    const auto corner =
+        elements_where(ice, [](const auto& x) { return x[0] < size && x[1] < size && x[2] > 3 * size; });
     convert_elements(ice, corner);
     Points& p = ice.particles.points;
     p.position = {10.2 * size, 2.1 * size, 4 * size + radius + gap};
@@ -74,11 +76,13 @@ TEST(OwnContact, LeavesTheBondOfAParticleToItsOriginAlone) {
   std::vector<double> forces[2];
   for (const bool own_contact : {false, true}) {
     IceBody ice = make_ice(bar_options(own_contact));
-    for (std::size_t n = 0; n < ice.solid.node_count(); ++n) ice.solid.velocities[3 * n] = 10 * std::sin(700 * ice.solid.positions[3 * n]);
+    for (std::size_t n = 0; n < ice.solid.node_count(); ++n)
+      ice.solid.velocities[3 * n] = 10 * std::sin(700 * ice.solid.positions[3 * n]);
     double dt = start(ice);
     convert_elements(ice, elements_where(ice, [](const auto& x) {
-      return x[0] > 6 * size && x[0] < 7 * size && x[1] > 2 * size && x[1] < 3 * size && x[2] > 3 * size;
-    }));
+                       return x[0] > 6 * size && x[0] < 7 * size && x[1] > 2 * size && x[1] < 3 * size &&
+                              x[2] > 3 * size;
+                     }));
     for (int n = 0; n < 30; ++n) dt = advance(ice, dt);
     forces[own_contact] = ice.particles.points.force;
   }
@@ -91,7 +95,8 @@ TEST(OwnContact, FacesOnBothSidesOfAGapDoNotPassThroughEachOther) {
     IceBody ice = make_ice(bar_options(own_contact));
     double dt = start(ice);
     convert_elements(ice, elements_where(ice, [](const auto& x) { return x[0] > 6 * size && x[0] < 7 * size; }));
-    for (std::size_t k = 0; k < ice.particles.points.position.size(); ++k) ice.particles.points.position[k] += 10 + 0.1 * static_cast<double>(k);
+    for (std::size_t k = 0; k < ice.particles.points.position.size(); ++k)
+      ice.particles.points.position[k] += 10 + 0.1 * static_cast<double>(k);
     for (std::size_t n = 0; n < ice.solid.node_count(); ++n)
       ice.solid.velocities[3 * n] = ice.solid.mesh.nodes[3 * n] < 6.5 * size ? 20 : -20;
     double least = 1;

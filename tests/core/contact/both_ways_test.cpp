@@ -24,8 +24,14 @@ double pressed(Mesh lower, Mesh upper, double depth, const ContactLaw& law) {
 }
 
 ContactLaw law_of(bool two_way, bool edges) {
-  return {.friction = 0, .damping = 0, .stiffness_factor = 0.1, .depth_limit = 0.05, .skin = 0.05, .mirror = {},
-          .two_way = two_way, .edges = edges};
+  return {.friction = 0,
+          .damping = 0,
+          .stiffness_factor = 0.1,
+          .depth_limit = 0.05,
+          .skin = 0.05,
+          .mirror = {},
+          .two_way = two_way,
+          .edges = edges};
 }
 
 /// A slab n x n squares; its mass is spread over vertices by area, as a solid's is.
@@ -47,8 +53,8 @@ Mesh slab(double low, double high, double half, int n, double mass) {
 }  // namespace
 
 TEST(BothWays, StiffnessIsNotCountedTwice) {
-  // Equal slabs of different meshes on each other, the lower one a little wider and almost without motion: looked at both
-  // ways the force is the mean of what it is each way, with edges or without.
+  // Equal slabs of different meshes on each other, the lower one a little wider and almost without motion: looked at
+  // both ways the force is the mean of what it is each way, with edges or without.
   const double depth = 0.001;
   const Mesh lower = slab(-0.2, 0, 1.0, 8, 10), upper = slab(0, 0.2, 0.99, 5, 10);
   const double one = pressed(lower, upper, depth, law_of(false, false));
@@ -62,7 +68,8 @@ TEST(BothWays, StiffnessIsNotCountedTwice) {
 TEST(BothWays, AFineHeadIsHeldByACoarseFace) {
   // A tip goes down in the middle of a coarse face: no vertex of the face comes near it.
   const auto deepest = [](bool two_way) {
-    Mesh head = box_of({-0.05, -0.05, -0.3}, {0.05, 0.05, -1e-4}, 2, 1), ice = box_of({-1, -1, 0}, {1, 1, 0.3}, 1, 1e15);
+    Mesh head = box_of({-0.05, -0.05, -0.3}, {0.05, 0.05, -1e-4}, 2, 1),
+         ice = box_of({-1, -1, 0}, {1, 1, 0.3}, 1, 1e15);
     PenaltyContact contact(law_of(two_way, false));
     contact.set_topology(head.body(), ice.body());
     head.set_velocity({0, 0, 1});

@@ -32,11 +32,13 @@ TEST(Energy, TenThousandBouncesNeitherGainNorLoseEnergy) {
 }
 
 TEST(Energy, AThousandBouncesOfATumblingBoxOfSpringsNeitherGainNorLoseEnergy) {
-  // Eight masses, all joined by springs, fall on a floor with friction 0 and turn as they like: points, edges and both ways.
+  // Eight masses, all joined by springs, fall on a floor with friction 0 and turn as they like: points, edges and both
+  // ways.
   Mesh floor = box_of({-3, -3, -1}, {3, 3, 0}, 6, 1e15);
   Mesh box = box_of({-0.3, -0.2, 0.5}, {0.3, 0.2, 0.8}, 1, 8);
   const std::vector<double> rest = box.positions;
-  for (std::size_t i = 0; i < box.count(); ++i) box.velocities[3 * i] = 2 * (rest[3 * i + 2] - 0.65), box.velocities[3 * i + 1] = -rest[3 * i];
+  for (std::size_t i = 0; i < box.count(); ++i)
+    box.velocities[3 * i] = 2 * (rest[3 * i + 2] - 0.65), box.velocities[3 * i + 1] = -rest[3 * i];
   PenaltyContact contact({.stiffness_factor = 0.1, .depth_limit = 0.1, .skin = 0.05, .two_way = true, .edges = true});
   contact.set_topology(floor.body(), box.body());
   const double dt = 2e-4, gravity = 10, spring = 2e4;
@@ -92,8 +94,7 @@ TEST(Energy, ManyPointsOnOneVertexStayStable) {
     const std::size_t middle = 4;
     sheet.masses[middle] = 1;
     Mesh points;
-    for (int i = 0; i < 1000; ++i)
-      points.add_point({1e-3 * std::cos(i), 1e-3 * std::sin(i), 1e-6}, {0, 0, -1}, 0.5);
+    for (int i = 0; i < 1000; ++i) points.add_point({1e-3 * std::cos(i), 1e-3 * std::sin(i), 1e-6}, {0, 0, -1}, 0.5);
     PenaltyContact contact({.stiffness_factor = factor, .depth_limit = 0.1, .skin = 0.05});
     contact.set_topology(sheet.body(), points.body());
     const double dt = 1e-3, start = 0.5 * 500;
@@ -128,8 +129,8 @@ TEST(Energy, DampingOnlyRemovesEnergyAndNeverPulls) {
     }
     EXPECT_GT(point.velocities[2], 0);
     EXPECT_NEAR(loss, 0.5 - 0.5 * point.velocities[2] * point.velocities[2], 0.02 * 0.5);
-    // A linear oscillator that is let go where spring and damper cancel: e = exp(-zeta/sqrt(1 - zeta^2) acos(2 zeta^2 - 1))
-    // for the time until that happens (zeta < 1).
+    // A linear oscillator that is let go where spring and damper cancel: e = exp(-zeta/sqrt(1 - zeta^2) acos(2 zeta^2 -
+    // 1)) for the time until that happens (zeta < 1).
     if (damping < 1) {
       const double root = std::sqrt(1 - damping * damping);
       const double restitution = std::exp(-damping / root * std::atan2(2 * damping * root, 2 * damping * damping - 1));

@@ -42,7 +42,9 @@ struct Slope {
   }
 };
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+double radians(double degrees) {
+  return degrees * std::numbers::pi / 180;
+}
 
 }  // namespace
 
@@ -98,7 +100,8 @@ TEST(Friction, CarriesItsSpringAlongWithTheMaterialThatTurns) {
   Mesh floor = floor_of(1, 6);
   Mesh point = point_at({0.5, 0, 1e-9}, {0, 0, -1e-3});
   const double rate = 1.0;  // rad/s; the centripetal acceleration of 0.5 m/s^2 is below mu g
-  PenaltyContact contact({.friction = mu, .damping = 0.3, .stiffness_factor = factor, .depth_limit = 0.1, .skin = 0.01});
+  PenaltyContact contact(
+      {.friction = mu, .damping = 0.3, .stiffness_factor = factor, .depth_limit = 0.1, .skin = 0.01});
   contact.set_topology(floor.body(), point.body());
   const std::vector<double> start = floor.positions;
   point.velocities[1] = 0.5 * rate;

@@ -46,7 +46,8 @@ struct Blocks {
     for (std::size_t k = 0; k + 1 < nk; ++k)
       for (std::size_t j = 0; j + 1 < nj; ++j)
         for (std::size_t i = 0; i + 1 < ni; ++i)
-          for (const auto& c : {std::array{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}})
+          for (const auto& c :
+               {std::array{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}})
             mesh.elements.push_back(node(place(i + static_cast<std::size_t>(c[0]), j + static_cast<std::size_t>(c[1]),
                                                k + static_cast<std::size_t>(c[2]))));
   }
@@ -73,10 +74,18 @@ continuum::HexMesh quarter_of_a_ball(double fine, double reach) {
   const std::size_t n = side.size(), m = up.size(), l = depth.size();
   Blocks blocks;
   blocks.add(n, n, m, [&](std::size_t i, std::size_t j, std::size_t k) { return in_cube({side[i], side[j], up[k]}); });
-  blocks.add(n, n, l, [&](std::size_t i, std::size_t j, std::size_t k) { return in_shell({side[j], side[i], -1}, depth[k]); });
-  blocks.add(n, n, l, [&](std::size_t i, std::size_t j, std::size_t k) { return in_shell({side[i], side[j], 1}, depth[k]); });
-  blocks.add(n, m, l, [&](std::size_t i, std::size_t j, std::size_t k) { return in_shell({1, side[i], up[j]}, depth[k]); });
-  blocks.add(m, n, l, [&](std::size_t i, std::size_t j, std::size_t k) { return in_shell({side[j], 1, up[i]}, depth[k]); });
+  blocks.add(n, n, l, [&](std::size_t i, std::size_t j, std::size_t k) {
+    return in_shell({side[j], side[i], -1}, depth[k]);
+  });
+  blocks.add(n, n, l, [&](std::size_t i, std::size_t j, std::size_t k) {
+    return in_shell({side[i], side[j], 1}, depth[k]);
+  });
+  blocks.add(n, m, l, [&](std::size_t i, std::size_t j, std::size_t k) {
+    return in_shell({1, side[i], up[j]}, depth[k]);
+  });
+  blocks.add(m, n, l, [&](std::size_t i, std::size_t j, std::size_t k) {
+    return in_shell({side[j], 1, up[i]}, depth[k]);
+  });
   return std::move(blocks.mesh);
 }
 
@@ -107,8 +116,8 @@ Sphere::Sphere(double fine, double reach, double height, double speed) {
 Mesh Sphere::contact_mesh() const {
   Mesh mesh;
   for (const std::int32_t n : surface.nodes)
-    mesh.add_point(row(solid.positions, static_cast<std::size_t>(n)), row(solid.velocities, static_cast<std::size_t>(n)),
-                   solid.masses[static_cast<std::size_t>(n)]);
+    mesh.add_point(row(solid.positions, static_cast<std::size_t>(n)),
+                   row(solid.velocities, static_cast<std::size_t>(n)), solid.masses[static_cast<std::size_t>(n)]);
   mesh.triangles = surface.triangles;
   return mesh;
 }

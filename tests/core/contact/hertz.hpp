@@ -8,8 +8,8 @@
 
 namespace polynya::contact::testing {
 
-/// A quarter of an elastic sphere of radius 1 and density 1 around the z axis, cut on x = 0 and y = 0; fine at its lowest
-/// point: a cube inside, a shell around it.
+/// A quarter of an elastic sphere of radius 1 and density 1 around the z axis, cut on x = 0 and y = 0; fine at its
+/// lowest point: a cube inside, a shell around it.
 struct Sphere {
   continuum::ExplicitSolid solid;
   continuum::BoundarySurface surface;
@@ -18,14 +18,14 @@ struct Sphere {
   /// `fine`: size of the elements (of radius 1) out to `reach` from the lowest point.
   Sphere(double fine, double reach, double height, double speed);
 
-  Mesh contact_mesh() const;                  ///< the surface as a body now
-  void refresh(Mesh& mesh) const;             ///< positions and velocities
+  Mesh contact_mesh() const;       ///< the surface as a body now
+  void refresh(Mesh& mesh) const;  ///< positions and velocities
   void step(const std::vector<double>& surface_force, double dt_before, double dt_after);
-  double momentum() const;                    ///< of the whole sphere, along z
+  double momentum() const;  ///< of the whole sphere, along z
 };
 
-/// What Hertz's theory says of the impact of an elastic sphere (radius 1, density 1) on a rigid plane, which is one of two
-/// equal spheres that meet at twice the speed: R* = R, m* = m, E* = E/(1 - nu^2).
+/// What Hertz's theory says of the impact of an elastic sphere (radius 1, density 1) on a rigid plane, which is one of
+/// two equal spheres that meet at twice the speed: R* = R, m* = m, E* = E/(1 - nu^2).
 struct HertzImpact {
   double duration = 0, peak_force = 0, contact_radius = 0, approach = 0;
   HertzImpact(double plane_strain_modulus, double speed);

@@ -21,10 +21,12 @@ void expect_hertz(const Impact& impact, double speed, double tolerance) {
 
 }  // namespace
 
-// Two equal spheres that meet, cut at the plane between them. Hertz's theory is that of slow impacts: contact radius and
-// the time of waves small. At 1e-3 of sqrt(E/rho) the peak force tends to 1.04 of Hertz's as the mesh is refined, at 1e-4
-// to 1.00.
-TEST(Hertz, SpheresThatMeetSlowlyPartAsHertzSays) { expect_hertz(sphere_on_plane(2, 0.8, stiff, 3e-4), 3e-4, 0.03); }
+// Two equal spheres that meet, cut at the plane between them. Hertz's theory is that of slow impacts: contact radius
+// and the time of waves small. At 1e-3 of sqrt(E/rho) the peak force tends to 1.04 of Hertz's as the mesh is refined,
+// at 1e-4 to 1.00.
+TEST(Hertz, SpheresThatMeetSlowlyPartAsHertzSays) {
+  expect_hertz(sphere_on_plane(2, 0.8, stiff, 3e-4), 3e-4, 0.03);
+}
 
 TEST(Hertz, EnergiesOfAnImpactWithFrictionAndDampingAddUp) {
   const ContactLaw law{.friction = 0.3, .damping = 0.1, .stiffness_factor = 0.3, .depth_limit = 0.01, .skin = 0.01};

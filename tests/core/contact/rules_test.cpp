@@ -175,7 +175,8 @@ TEST(Rules, ForceOnAParticleTurnsContinuouslyAroundAnEdge) {
     before = force;
   };
   for (double x = 0.8; x < 1; x += 0.001) visit({x, 0.1, radius - depth});
-  for (double a = 0; a < 1.57; a += 0.01) visit({1 + (radius - depth) * std::sin(a), 0.1, (radius - depth) * std::cos(a)});
+  for (double a = 0; a < 1.57; a += 0.01)
+    visit({1 + (radius - depth) * std::sin(a), 0.1, (radius - depth) * std::cos(a)});
   for (double z = 0; z < 0.2; z += 0.001) visit({1 + radius - depth, 0.1, -z});
   EXPECT_LT(largest, 0.012 * Tracked::stiffness * depth);  // the turn of a step
 }
@@ -296,8 +297,11 @@ TEST(Rules, WhatWasBondedAtItsOriginDoesNotTouch) {
     points[3 * particle] = origin, points[3 * particle + 1] = points[3 * particle + 2] = 0;
     SelfContact contact(law);
     const std::vector<double> point_reach(now.count(), 0.4), triangle_reach(now.body().triangle_count(), 0.6);
-    const Exclusion exclusion{.neighbours = false, .point_origins = points, .point_reaches = point_reach,
-                              .triangle_origins = triangles, .triangle_reaches = triangle_reach};
+    const Exclusion exclusion{.neighbours = false,
+                              .point_origins = points,
+                              .point_reaches = point_reach,
+                              .triangle_origins = triangles,
+                              .triangle_reaches = triangle_reach};
     contact.set_topology(now.body());
     contact.evaluate(now.body(), exclusion, 1e-3);
     now.drift(0.6e-3);

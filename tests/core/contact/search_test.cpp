@@ -25,7 +25,8 @@ struct Scene {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (int i = 0; i < 1500; ++i)
-      other.add_point({uniform(random), uniform(random), 0.7 * uniform(random) - 0.9}, {0, 0, 4 + uniform(random)}, 0.05, 0.02);
+      other.add_point({uniform(random), uniform(random), 0.7 * uniform(random) - 0.9}, {0, 0, 4 + uniform(random)},
+                      0.05, 0.02);
     for (std::size_t v = 0; v < box.count(); ++v) {
       const Vector3 x = row(box.positions, v);
       box.velocities[3 * v] = -2 * x[1];
@@ -34,8 +35,14 @@ struct Scene {
     }
   }
   static ContactLaw law(double skin) {
-    return {.friction = 0.3, .damping = 0.05, .stiffness_factor = 0.1, .depth_limit = 0.03, .skin = skin,
-            .mirror = {}, .two_way = true, .edges = true};
+    return {.friction = 0.3,
+            .damping = 0.05,
+            .stiffness_factor = 0.1,
+            .depth_limit = 0.03,
+            .skin = skin,
+            .mirror = {},
+            .two_way = true,
+            .edges = true};
   }
 };
 
@@ -87,8 +94,12 @@ void* operator new(std::size_t size) {
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
 
 TEST(Search, KeptCandidatesGiveTheBitsOfASearchInEveryStep) {
   const Outcome kept = play(0.05, 2), always = play(1e-9, 2);
@@ -98,7 +109,9 @@ TEST(Search, KeptCandidatesGiveTheBitsOfASearchInEveryStep) {
   expect_same_bits(kept, always);
 }
 
-TEST(Search, OneAndTwoThreadsGiveTheSameBits) { expect_same_bits(play(0.05, 1), play(0.05, 2)); }
+TEST(Search, OneAndTwoThreadsGiveTheSameBits) {
+  expect_same_bits(play(0.05, 1), play(0.05, 2));
+}
 
 TEST(Search, AllocatesNothingOnceWarm) {
   omp_set_num_threads(2);

@@ -62,11 +62,11 @@ struct Block {
 
 /// What became of a stack of three blocks after many windows.
 struct Rest {
-  double sunk = 0, sideways = 0;         ///< m, most
-  double late_motion = 0;                ///< m, most that any vertex moved in the second half
-  double highest = 0, last = 0;          ///< J, energy above that of the start
-  double swing = 0;                      ///< J, energy of the swing about the static depth of all joints
-  double static_depth = 0;               ///< m, of all joints together
+  double sunk = 0, sideways = 0;  ///< m, most
+  double late_motion = 0;         ///< m, most that any vertex moved in the second half
+  double highest = 0, last = 0;   ///< J, energy above that of the start
+  double swing = 0;               ///< J, energy of the swing about the static depth of all joints
+  double static_depth = 0;        ///< m, of all joints together
   std::size_t searches = 0;
 };
 
@@ -74,8 +74,14 @@ Rest stack(const std::array<double, 3>& widths, double damping, int windows) {
   std::vector<Block> blocks;
   for (std::size_t k = 0; k < 3; ++k) blocks.emplace_back(static_cast<double>(k) * edge, widths[k]);
   const Mesh floor = floor_of(1, 3);
-  const ContactLaw law{.friction = 0.3, .damping = damping, .stiffness_factor = 0.1, .depth_limit = 0.02, .skin = 0.01,
-                       .mirror = {}, .two_way = true, .edges = true};
+  const ContactLaw law{.friction = 0.3,
+                       .damping = damping,
+                       .stiffness_factor = 0.1,
+                       .depth_limit = 0.02,
+                       .skin = 0.01,
+                       .mirror = {},
+                       .two_way = true,
+                       .edges = true};
   std::vector<PenaltyContact> contacts(3, PenaltyContact(law));
   contacts[0].set_topology(floor.body(), blocks[0].mesh.body());
   for (std::size_t k = 1; k < 3; ++k) contacts[k].set_topology(blocks[k - 1].mesh.body(), blocks[k].mesh.body());
@@ -83,10 +89,11 @@ Rest stack(const std::array<double, 3>& widths, double damping, int windows) {
   for (Block& block : blocks) block.kick(0);
 
   Rest rest;
-  // Four corners of an eighth of the mass M each: between two blocks factor (M/16)/dt^2 per corner, both ways together, and
-  // the same on the floor, whose vertices are elsewhere. 3 + 2 + 1 blocks' weight on three joints. And the
-  // blocks shorten under 2.5 + 1.5 + 0.5 blocks' weight.
-  rest.static_depth = 6 * 4 * gravity * dt * dt / law.stiffness_factor + 4.5 * density * gravity * edge * edge / youngs_modulus;
+  // Four corners of an eighth of the mass M each: between two blocks factor (M/16)/dt^2 per corner, both ways together,
+  // and the same on the floor, whose vertices are elsewhere. 3 + 2 + 1 blocks' weight on three joints. And the blocks
+  // shorten under 2.5 + 1.5 + 0.5 blocks' weight.
+  rest.static_depth =
+      6 * 4 * gravity * dt * dt / law.stiffness_factor + 4.5 * density * gravity * edge * edge / youngs_modulus;
   rest.swing = rest.static_depth * density * edge * edge * edge * gravity * 3;
   double start = 0;
   std::vector<double> halfway;
@@ -119,9 +126,10 @@ Rest stack(const std::array<double, 3>& widths, double damping, int windows) {
     rest.last = energy - start;
   }
   rest.searches = contacts[2].searches();
-  std::printf("sunk %.2f and sideways %.1e of the static depth, late motion %.1e m, energy %.1e of the swing's, at most %.1e\n",
-              rest.sunk / rest.static_depth, rest.sideways / rest.static_depth, rest.late_motion, rest.last / rest.swing,
-              rest.highest / rest.swing);
+  std::printf(
+      "sunk %.2f and sideways %.1e of the static depth, late motion %.1e m, energy %.1e of the swing's, at most %.1e\n",
+      rest.sunk / rest.static_depth, rest.sideways / rest.static_depth, rest.late_motion, rest.last / rest.swing,
+      rest.highest / rest.swing);
   return rest;
 }
 
