@@ -21,6 +21,7 @@ std::vector<Figure> hexahedron_elastic();
 std::vector<Figure> hexahedron_jh2();
 std::vector<Figure> particle();
 std::vector<Figure> clip();
+std::vector<Figure> contact_evaluate();
 std::vector<Figure> window();
 std::vector<Figure> fluid_step();
 

@@ -44,6 +44,7 @@ const Kernel kernels[] = {
     {"ice.hexahedron_jh2", hexahedron_jh2},
     {"ice.particle", particle},
     {"geometry.clip", clip},
+    {"contact.evaluate", contact_evaluate},
     {"coupling.window", window},
     {"fluid.cell", fluid_step},
 };

@@ -72,6 +72,10 @@ void begin(Run& run, const std::vector<std::string>& names) {
   begin_solids(run.conversation, run.keeper.step);
 }
 
+contact::Body as_contact_body(const SolidSide& side) {
+  return {side.positions, side.velocities, side.masses, side.radii, side.ids, side.triangles};
+}
+
 /// The fluid computes meanwhile, where there is one.
 void find_contact(Run& run) {
   SolidSide* vehicle = run.conversation.find(Body::vehicle);
@@ -79,17 +83,21 @@ void find_contact(Run& run) {
   for (SolidSide& side : run.conversation.solids) side.contact_force.assign(3 * side.vertices(), 0.0);
   if (!vehicle || !ice) return;
   const auto lap = run.watch.lap("contact");
-  if (!run.contact_ready || vehicle->topology_changed) {
-    run.contact.set_topology(vehicle->triangles, vehicle->vertices());
-    run.contact_ready = true;
+  const contact::Body hull = as_contact_body(*vehicle), plate = as_contact_body(*ice);
+  const bool first = !run.contact;
+  if (first) {
+    const contact::ContactLaw law = run.contact_law(hull, plate);
+    run.contact.emplace(law);
+    spdlog::info("contact: the ice's points against the hull{}{}", law.two_way ? ", the hull's against the ice" : "",
+                 law.edges ? ", edges against edges" : "");
   }
-  const contact::ContactForces& forces = run.contact.evaluate(
-      {vehicle->positions, vehicle->velocities, vehicle->masses, vehicle->triangles},
-      {ice->positions, ice->velocities, ice->masses, ice->radii, ice->ids}, run.keeper.step);
+  if (first || vehicle->topology_changed || ice->topology_changed) run.contact->set_topology(hull, plate);
+  const contact::ContactForces& forces = run.contact->evaluate(hull, plate, run.keeper.step);
   vehicle->contact_force = forces.primary;
   ice->contact_force = forces.secondary;
   run.ledger.contact_stored = forces.stored_energy;
-  run.ledger.contact_friction += forces.friction_power * run.keeper.step;
+  run.ledger.contact_friction += forces.friction_loss;
+  run.ledger.contact_damping += forces.damping_loss;
   run.ledger.contact_released += forces.released_energy;
   run.monitor->note_contact(forces);
 }

@@ -66,6 +66,7 @@ std::vector<results::Column> ledger_columns() {
   for (const char* body : bodies) columns.push_back({std::string("fluid_work_") + body, "J"});
   columns.push_back({"contact_stored", "J"});
   columns.push_back({"contact_friction", "J"});
+  columns.push_back({"contact_damping", "J"});
   columns.push_back({"contact_released", "J"});
   return columns;
 }
@@ -90,7 +91,7 @@ void LedgerFile::append(double time, long window, double acting_time, const Ledg
   row.insert(row.end(), ledger.fluid_reported.begin(), ledger.fluid_reported.end());
   row.insert(row.end(), ledger.contact_work.begin(), ledger.contact_work.end());
   row.insert(row.end(), ledger.fluid_work.begin(), ledger.fluid_work.end());
-  row.insert(row.end(), {ledger.contact_stored, ledger.contact_friction, ledger.contact_released});
+  row.insert(row.end(), {ledger.contact_stored, ledger.contact_friction, ledger.contact_damping, ledger.contact_released});
   series_.append(row);
 }
 

@@ -20,6 +20,7 @@ struct Ledger {
   std::array<double, body_count> contact_work{};      ///< J, done on each body
   double contact_stored = 0;                          ///< J, in penalty springs now
   double contact_friction = 0;                        ///< J, dissipated by friction
+  double contact_damping = 0;                         ///< J, dissipated by damping
   double contact_released = 0;                        ///< J, when stiffness had to fall
   // Fluid on each body.
   std::array<Impulse, body_count> fluid_given{};      ///< by the fluid, from its pressures and the cut pieces

@@ -88,7 +88,7 @@ Balance balance(const Conversation& conversation, const Ledger& ledger, double a
     sum.numerical -= fluid.change("swept_defect");
     sum.momentum += fluid.change({"momentum_z", "boundary_impulse_z", "gravity_impulse"});
   }
-  sum.contact = ledger.contact_stored + ledger.contact_friction + ledger.contact_released;
+  sum.contact = ledger.contact_stored + ledger.contact_friction + ledger.contact_damping + ledger.contact_released;
   return sum;
 }
 

@@ -26,8 +26,8 @@ struct Run {
   Ledger ledger;
   LedgerFile ledger_file;
   std::array<WorkMeter, body_count> work;
-  contact::PenaltyContact contact;
-  bool contact_ready = false, topology_changed = false;
+  std::optional<contact::PenaltyContact> contact;
+  bool topology_changed = false;
   std::optional<OverlapExchange> overlap;
   std::optional<Monitor> monitor;
   double planned_step = 0, first_planned_step = 0, next_frame_time = 0;
@@ -44,15 +44,18 @@ struct Run {
       : scene(s),
         folder(std::move(run_folder)),
         conversation{hub, {}, std::nullopt},
-        ledger_file(folder),
-        contact(contact_law(s)) {}
+        ledger_file(folder) {}
 
-  static contact::PenaltyLaw contact_law(const scene::Scene& s) {
-    contact::PenaltyLaw law;
-    law.friction = s.effect("friction") ? s.contact.friction : 0.0;
-    law.stiffness_factor = s.contact.stiffness_factor;
-    law.depth_limit = s.resolution.ice_element;
-    law.mirror = {s.symmetry == scene::Symmetry::quarter, s.symmetry != scene::Symmetry::full};
+  contact::ContactLaw contact_law(const contact::Body& vehicle, const contact::Body& ice) const {
+    contact::ContactLaw law;
+    law.friction = scene.effect("friction") ? scene.contact.friction : 0.0;
+    law.damping = scene.contact.damping;
+    law.stiffness_factor = scene.contact.stiffness_factor;
+    law.depth_limit = 0.5 * scene.resolution.ice_element;
+    law.skin = 0.25 * scene.resolution.ice_element;
+    law.two_way = scene.contact.two_way == "on" || (scene.contact.two_way == "auto" && contact::is_finer(vehicle, ice));
+    law.edges = scene.contact.edges != "off";
+    law.mirror = {scene.symmetry == scene::Symmetry::quarter, scene.symmetry != scene::Symmetry::full};
     return law;
   }
 };

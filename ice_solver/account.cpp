@@ -14,9 +14,9 @@ Account account_of(const IceBody& ice) {
   const IceBooks& books = ice.books;
   Account account;
   account.kinetic = elements.kinetic - books.removed_since_step + books.particle_kinetic;
-  account.internal = elements.internal + sum_of(ice.particles.stress_work);
+  account.internal = elements.internal + sum_of(ice.particles.stress_work) + ice.own_contact.stored;
   account.hourglass = elements.hourglass;
-  account.viscous = elements.viscous + books.particle_heat.total;
+  account.viscous = elements.viscous + books.particle_heat.total + ice.own_contact.dissipated;
   account.conversion_heat = books.conversion_heat;
   account.boundary_flux = elements.boundary_flux;
   account.gravity_work = books.node_gravity_work.total + books.particle_gravity_work.total;

@@ -11,9 +11,9 @@ namespace polynya::ice {
 ///     - external_work - gravity_work - step_change
 struct Account {
   double kinetic = 0;
-  double internal = 0;          ///< work of the stress in elements and particles
+  double internal = 0;          ///< work of the stress in elements and particles, and what springs of the ice's own contact hold
   double hourglass = 0;
-  double viscous = 0;           ///< bulk viscosity of elements and artificial viscosity of particles
+  double viscous = 0;           ///< bulk viscosity of elements, artificial viscosity of particles, losses of the ice's own contact
   double conversion_heat = 0;   ///< motion within elements that became particles
   double boundary_flux = 0;     ///< out through non-reflecting sides
   double external_work = 0;     ///< done by loads and by what holds prescribed nodes

@@ -69,6 +69,14 @@ std::array<double, 3> rough_centre(const continuum::ExplicitSolid& solid, std::s
 
 }  // namespace
 
+std::array<double, 3> reference_centre(const continuum::ExplicitSolid& solid, std::size_t element) {
+  std::array<double, 3> centre{};
+  for (std::size_t a = 0; a < 8; ++a)
+    for (std::size_t c = 0; c < 3; ++c)
+      centre[c] += solid.mesh.nodes[3 * static_cast<std::size_t>(solid.mesh.elements[8 * element + a]) + c] / 8;
+  return centre;
+}
+
 double smoothing_length_of(double volume) { return 1.2 * std::cbrt(volume); }
 
 void select_background(Background& background, const continuum::ExplicitSolid& solid, const Points& particles,
@@ -100,6 +108,9 @@ void select_background(Background& background, const continuum::ExplicitSolid& s
   for (std::size_t k = 0; k < points.count(); ++k) {
     const auto e = static_cast<std::size_t>(background.elements[k]);
     points.mass[k] = solid.element.mass[e];
+    const std::array<double, 3> origin = reference_centre(solid, e);
+    std::copy(origin.begin(), origin.end(), points.origin.begin() + static_cast<std::ptrdiff_t>(3 * k));
+    points.bond_reach[k] = smoothing_length_of(solid.element.reference_volume[e]);
     points.smoothing_length[k] = std::min(smoothing_length_of(solid.element.reference_volume[e]), largest_smoothing_length);
   }
   refresh_background(background, solid);

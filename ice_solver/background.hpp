@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +26,9 @@ void refresh_background(Background& background, const continuum::ExplicitSolid& 
 /// Adds the force on each point to the eight nodes of its element, an eighth each. nodal_force: [nodes][3], N.
 void spread_background_forces(const Background& background, const continuum::ExplicitSolid& solid,
                               std::vector<double>& nodal_force);
+
+/// Centre of an element in the reference configuration, m.
+std::array<double, 3> reference_centre(const continuum::ExplicitSolid& solid, std::size_t element);
 
 /// 1.2 V^(1/3), m.
 double smoothing_length_of(double volume);

@@ -37,6 +37,8 @@ void convert(IceBody& ice, std::size_t e) {
   birth.velocity_gradient = continuum::velocity_gradient(solid, e);
   birth.state = continuum::point_state(solid, e);
   birth.smoothing_length = smoothing_length_of(solid.element.volume[e]);
+  birth.origin = reference_centre(solid, e);
+  birth.bond_reach = smoothing_length_of(solid.element.reference_volume[e]);
   const Vector spin = angular_momentum_about_centre(solid, e, birth.position);
 
   const continuum::RemovedElement removed = continuum::remove_element(solid, e);
@@ -70,6 +72,7 @@ void convert_elements(IceBody& ice, std::span<const std::int32_t> elements) {
   for (const std::int32_t e : elements) convert(ice, static_cast<std::size_t>(e));
   if (elements.empty()) return;
   ice.list_is_stale = true;
+  ice.own_contact.stale = true;
   ice.topology_changed = true;
 }
 

@@ -1,6 +1,7 @@
 #include "ice_solver/ice_body.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/compute/parallel.hpp"
@@ -31,7 +32,7 @@ void renew_list(IceBody& ice) {
   const double skin = skin_in_smoothing_lengths * largest;
   const double limit = background_smoothing_limit * largest;
   select_background(ice.background, ice.solid, ice.particles.points, largest + limit + skin, limit);
-  ice.list.build(ice.particles.points, ice.background.points, ice.options.planes, skin);
+  ice.list.build(ice.particles.points, ice.background.points, ice.options.planes, skin, ice.own_contact.active);
   ice.list_is_stale = false;
   ice.steps_since_build = 0;
 }
@@ -49,6 +50,18 @@ IceBody make_ice(const IceOptions& options) {
   ice.solid = continuum::make_solid("ice", plate_mesh(options.x, options.y, options.z), options.law, options.numerics);
   constrain_plate(ice.solid, options.planes, options.sides);
   ice.face_neighbours = continuum::face_neighbours(ice.solid.mesh);
+  if (options.own_contact) {
+    // The size of the smallest elements sets how far candidates are looked for.
+    const auto& volume = ice.solid.element.reference_volume;
+    const double size = std::cbrt(*std::min_element(volume.begin(), volume.begin() + static_cast<std::ptrdiff_t>(ice.solid.element_count())));
+    contact::ContactLaw law;
+    law.friction = options.contact_friction;
+    law.stiffness_factor = options.contact_stiffness_factor;
+    law.depth_limit = law.skin = 0.25 * size;
+    law.mirror = {options.planes.x, options.planes.y};
+    ice.own_contact.active = true;
+    ice.own_contact.contact = contact::SelfContact(law);
+  }
   continuum::internal_forces(ice.solid, 0);
   ice.first_step.assign(ice.solid.element.step_limit.begin(),
                         ice.solid.element.step_limit.begin() + static_cast<std::ptrdiff_t>(ice.solid.element_count()));
@@ -91,6 +104,7 @@ void internal_forces(IceBody& ice, double dt) {
   update_particle_stress(particles, ice.solid.law, dt);
   ice.sums.forces(ice.list, particles.points, background, viscosity_of(ice));
   spread_background_forces(ice.background, ice.solid, ice.pair_force);
+  add_own_contact(ice, dt);
 }
 
 double stable_step(const IceBody& ice) {

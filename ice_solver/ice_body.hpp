@@ -8,6 +8,7 @@
 #include "core/continuum/explicit_solid.hpp"
 #include "ice_solver/background.hpp"
 #include "ice_solver/neighbour_list.hpp"
+#include "ice_solver/own_contact.hpp"
 #include "ice_solver/pair_sums.hpp"
 #include "ice_solver/particles.hpp"
 #include "ice_solver/plate.hpp"
@@ -30,6 +31,9 @@ struct IceOptions {
   double critical_strain = 0.35;
   double collapsed_step = 0.1;   ///< an element is also converted when its stable step falls below this part of its first
   double gravity = 0;            ///< m/s^2, along -z
+  /// Particles meet intact ice that they are not bonded to by contact, not through the sums; surfaces meet by contact.
+  bool own_contact = false;
+  double contact_friction = 0, contact_stiffness_factor = 0.1;
   double viscosity_linear = 0.1, viscosity_quadratic = 2.0;  ///< of the particles: Monaghan's alpha and beta
 };
 
@@ -75,6 +79,7 @@ struct IceBody {
   Background background;
   NeighbourList list;
   PairSums sums;
+  OwnContact own_contact;
   bool list_is_stale = true;
   int steps_since_build = 0;
   std::vector<double> pair_force, nodal_force;  ///< [nodes][3], N

@@ -14,6 +14,7 @@ IceSurface surface_of(const IceBody& ice) {
   IceSurface surface;
   surface.nodes = std::move(boundary.nodes);
   surface.triangles = std::move(boundary.triangles);
+  surface.elements = std::move(boundary.elements);
   for (const std::int32_t node : surface.nodes) {
     surface.ids.push_back(node);
     surface.masses.push_back(solid.masses[static_cast<std::size_t>(node)]);
@@ -33,12 +34,12 @@ IceSurface surface_of(const IceBody& ice) {
   return surface;
 }
 
-void vertex_motion(const IceBody& ice, const IceSurface& surface, std::vector<double>& positions,
+void vertex_motion(const IceBody& ice, std::span<const std::int32_t> nodes, std::vector<double>& positions,
                    std::vector<double>& velocities) {
-  positions.resize(3 * surface.vertex_count());
-  velocities.resize(3 * surface.vertex_count());
+  positions.resize(3 * (nodes.size() + ice.particles.count()));
+  velocities.resize(positions.size());
   std::size_t to = 0;
-  for (const std::int32_t node : surface.nodes)
+  for (const std::int32_t node : nodes)
     for (std::size_t c = 0; c < 3; ++c, ++to) {
       const std::size_t from = 3 * static_cast<std::size_t>(node) + c;
       positions[to] = ice.solid.positions[from];

@@ -12,6 +12,7 @@ struct IceSurface {
   std::vector<std::int32_t> nodes;       ///< mesh nodes of the first vertices, ascending
   std::vector<std::int64_t> ids;         ///< [v]; a node keeps its number, a particle has nodes + its element's number
   std::vector<std::int32_t> triangles;   ///< [t][3], outward oriented, none on symmetry planes
+  std::vector<std::int32_t> elements;    ///< [t], the element a triangle belongs to
   std::vector<double> masses;            ///< [v], kg
   std::vector<double> radii;             ///< [v], m: 0 for nodes, V^(1/3)/2 for particles
   std::vector<double> volumes;           ///< [v], m^3: 0 for nodes
@@ -21,8 +22,8 @@ struct IceSurface {
 /// The surface of the elements that live now and the particles there are.
 IceSurface surface_of(const IceBody& ice);
 
-/// Positions and velocities of the vertices, [v][3].
-void vertex_motion(const IceBody& ice, const IceSurface& surface, std::vector<double>& positions,
+/// Positions and velocities of these nodes, then of all particles, [v][3].
+void vertex_motion(const IceBody& ice, std::span<const std::int32_t> nodes, std::vector<double>& positions,
                    std::vector<double>& velocities);
 
 /// Loads on vertices handed to nodes ([nodes][3]) and particles ([particles][3]). Throws std::invalid_argument if a

@@ -36,7 +36,9 @@ void require_finite(const std::vector<double>& position, const char* what) {
 
 }  // namespace
 
-void NeighbourList::build(const Points& particles, const Points& elements, SymmetryPlanes planes, double skin) {
+void NeighbourList::build(const Points& particles, const Points& elements, SymmetryPlanes planes, double skin,
+                          bool bonds_only) {
+  bonds_only_ = bonds_only;
   require_finite(particles.position, "particle");
   require_finite(elements.position, "background point");
   ++builds_;
@@ -65,7 +67,7 @@ std::size_t NeighbourList::entries() const {
 void NeighbourList::collect_points(const Points& particles, const Points& elements, SymmetryPlanes planes,
                                    double reach) {
   points_.clear();
-  x_.clear(), y_.clear(), z_.clear(), h_.clear();
+  x_.clear(), y_.clear(), z_.clear(), h_.clear(), origin_.clear();
   const auto add_all = [&](const Points& set, bool element) {
     for (std::size_t i = 0; i < set.count(); ++i) {
       const double x = set.position[3 * i], y = set.position[3 * i + 1], z = set.position[3 * i + 2];
@@ -76,6 +78,8 @@ void NeighbourList::collect_points(const Points& particles, const Points& elemen
         points_.push_back({static_cast<std::int32_t>(i), element, mirror});
         x_.push_back(sign.x * x), y_.push_back(sign.y * y), z_.push_back(z);
         h_.push_back(set.smoothing_length[i]);
+        origin_.push_back({sign.x * set.origin[3 * i], sign.y * set.origin[3 * i + 1], set.origin[3 * i + 2],
+                           set.bond_reach[i]});
       }
     }
   };
@@ -105,7 +109,7 @@ void NeighbourList::sort_into_cells(double cell) {
     auto copy = values;
     for (std::size_t i = 0; i < n; ++i) values[i] = copy[static_cast<std::size_t>(order[i].second)];
   };
-  permute(points_), permute(x_), permute(y_), permute(z_), permute(h_);
+  permute(points_), permute(x_), permute(y_), permute(z_), permute(h_), permute(origin_);
   for (std::size_t i = 0; i < n; ++i) keys_[i] = order[i].first;
 }
 
@@ -122,10 +126,17 @@ std::array<NeighbourList::Range, 9> NeighbourList::ranges_around(std::int64_t ke
   return ranges;
 }
 
+bool NeighbourList::bonded(std::size_t i, std::size_t j) const {
+  const auto &a = origin_[i], &b = origin_[j];
+  const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2], reach = a[3] + b[3];
+  return dx * dx + dy * dy + dz * dz < reach * reach;
+}
+
 void NeighbourList::append_neighbours(std::size_t i, const Range& range, double skin,
                                       std::vector<std::int32_t>& buffer) const {
   const auto accept = [&](std::size_t j) {
     if (j == i || (points_[i].element && points_[j].element)) return;
+    if (bonds_only_ && points_[i].element != points_[j].element && !bonded(i, j)) return;
     buffer.push_back(static_cast<std::int32_t>(j));
   };
   const double own_reach = h_[i] + skin;

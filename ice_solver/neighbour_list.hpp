@@ -34,8 +34,10 @@ class NeighbourList {
     std::int32_t neighbours = 0;   ///< without padding
   };
 
+  /// bonds_only: a particle and an element are neighbours only if their origins are nearer than both bond reaches.
   /// Throws std::runtime_error naming the first point whose position is not finite.
-  void build(const Points& particles, const Points& elements, SymmetryPlanes planes, double skin);
+  void build(const Points& particles, const Points& elements, SymmetryPlanes planes, double skin,
+             bool bonds_only = false);
   /// True if points were added or removed or one of them moved by more than half the skin since build().
   bool outdated(const Points& particles, const Points& elements) const;
 
@@ -61,7 +63,11 @@ class NeighbourList {
   void fill_rows(double skin);
 
   std::vector<PointSource> points_;
+  bool bonded(std::size_t i, std::size_t j) const;
+
   std::vector<double> x_, y_, z_, h_;     // of the points in sorted order
+  std::vector<std::array<double, 4>> origin_;  // and their origins with the bond reach
+  bool bonds_only_ = false;
   std::vector<std::int64_t> keys_;        // cell of each point, ascending
   std::int64_t stride_y_ = 0, stride_z_ = 0;
   std::vector<Row> rows_;

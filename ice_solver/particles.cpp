@@ -92,11 +92,13 @@ void add_particle(Particles& p, const continuum::Law& law, const ParticleBirth& 
   const auto append = [](std::vector<double>& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(p.points.position, birth.position);
   append(p.points.velocity, birth.velocity);
+  append(p.points.origin, birth.origin);
   append(p.points.stress, birth.state.stress);
   append(p.points.force, std::array{0.0, 0.0, 0.0});
   p.points.mass.push_back(birth.mass);
   p.points.density.push_back(continuum::density(law) / birth.state.relative_volume);
   p.points.smoothing_length.push_back(birth.smoothing_length);
+  p.points.bond_reach.push_back(birth.bond_reach);
   append(p.points.viscous_force, std::array{0.0, 0.0, 0.0});
   p.element.push_back(birth.element);
   p.relative_volume.push_back(birth.state.relative_volume);

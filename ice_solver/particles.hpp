@@ -27,8 +27,8 @@ struct Particles {
 /// What a particle starts with: the state of its element.
 struct ParticleBirth {
   std::int64_t element = 0;
-  double mass = 0, smoothing_length = 0;
-  std::array<double, 3> position{}, velocity{};
+  double mass = 0, smoothing_length = 0, bond_reach = 0;
+  std::array<double, 3> position{}, velocity{}, origin{};
   continuum::Tensor<double> velocity_gradient{};
   continuum::PointState<double> state;
 };

@@ -12,6 +12,8 @@ struct Points {
   std::vector<double> mass;              ///< [n], kg
   std::vector<double> density;           ///< [n], kg/m^3
   std::vector<double> smoothing_length;  ///< [n], m
+  std::vector<double> origin;            ///< [n][3], m, centre of the element in the reference configuration
+  std::vector<double> bond_reach;        ///< [n], m, smoothing length of the element in the reference configuration
   std::vector<double> force;             ///< [n][3], N, result of the sums
   std::vector<double> viscous_force;     ///< [n][3], N, the part of it that is artificial viscosity
 
@@ -20,8 +22,8 @@ struct Points {
 };
 
 inline void Points::resize(std::size_t count) {
-  for (auto* vector : {&position, &velocity, &force, &viscous_force}) vector->resize(3 * count);
-  for (auto* scalar : {&mass, &density, &smoothing_length}) scalar->resize(count);
+  for (auto* vector : {&position, &velocity, &origin, &force, &viscous_force}) vector->resize(3 * count);
+  for (auto* scalar : {&mass, &density, &smoothing_length, &bond_reach}) scalar->resize(count);
   stress.resize(6 * count);
 }
 

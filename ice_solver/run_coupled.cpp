@@ -26,7 +26,7 @@ void add_topology(Message& message, const IceSurface& surface) {
 
 void add_motion_and_account(Message& message, IceBody& ice, const IceSurface& surface) {
   std::vector<double> positions, velocities;
-  vertex_motion(ice, surface, positions, velocities);
+  vertex_motion(ice, surface.nodes, positions, velocities);
   const auto vertices = static_cast<std::int64_t>(surface.vertex_count());
   message.add<double>("positions", {vertices, 3}, positions);
   message.add<double>("velocities", {vertices, 3}, velocities);

@@ -32,6 +32,9 @@ IceOptions options_from_scene(const scene::Scene& scene) {
   options.sides = ice.bending ? Sides::free : sides_from_name(ice.sides);
   options.conversion = scene.effect("conversion");
   options.critical_strain = ice.critical_strain;
+  options.own_contact = scene.effect("debris_contact");
+  options.contact_friction = scene.contact.friction;
+  options.contact_stiffness_factor = scene.contact.stiffness_factor;
   options.gravity = scene.run.gravity;
   return options;
 }

@@ -1,146 +1,132 @@
 #include "core/contact/penalty_contact.hpp"
 
 #include <algorithm>
-#include <limits>
-
-#include "core/compute/parallel.hpp"
 
 namespace polynya::contact {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double spare = 2;  // margin over the fastest motion of a step, when that exceeds the depth limit
 
-struct Box {
-  Vector3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-  void include(const Vector3& p, double margin) {
-    for (int d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], p[d] - margin);
-      high[d] = std::max(high[d], p[d] + margin);
-    }
-  }
-  bool holds(const Vector3& p) const {
-    for (int d = 0; d < 3; ++d)
-      if (p[d] < low[d] || p[d] > high[d]) return false;
-    return true;
-  }
-};
+double skin_of(const ContactLaw& law) {
+  return law.skin > 0 ? law.skin : law.depth_limit;
+}
 
-/// Mass that a unit force at a point with these barycentric weights feels: 1 / sum(w^2 / m).
-double mass_at(const PrimarySurface& primary, const std::int32_t* triangle, const Vector3& weights) {
-  double compliance = 0;
-  for (int v = 0; v < 3; ++v) compliance += weights[v] * weights[v] / primary.masses[triangle[v]];
-  return 1 / compliance;
+/// Length that a tenth of the edges fall below, m.
+double short_edge(const Body& body) {
+  std::vector<double> lengths;
+  for (std::size_t t = 0; t < body.triangle_count(); ++t)
+    for (std::size_t e = 0; e < 3; ++e)
+      lengths.push_back(norm(row(body.positions, static_cast<std::size_t>(body.triangles[3 * t + e])) -
+                             row(body.positions, static_cast<std::size_t>(body.triangles[3 * t + (e + 1) % 3]))));
+  if (lengths.empty()) return 0;
+  const auto tenth = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 10);
+  std::nth_element(lengths.begin(), tenth, lengths.end());
+  return *tenth;
+}
+
+double largest_radius(const Body& body) {
+  double largest = 0;
+  for (const double r : body.radii) largest = std::max(largest, r);
+  return largest;
 }
 
 }  // namespace
 
-void PenaltyContact::set_topology(std::span<const std::int32_t> triangles, std::size_t vertices) {
-  normals_ = make_surface_normals(triangles, vertices);
+bool is_finer(const Body& primary, const Body& secondary) {
+  return secondary.triangle_count() > 0 && short_edge(primary) < 0.99 * short_edge(secondary);
 }
 
-void PenaltyContact::collect_candidates(const PrimarySurface& primary, const SecondaryPoints& secondary) {
-  double largest_radius = 0;
-  for (double r : secondary.radii) largest_radius = std::max(largest_radius, r);
-  const double reach = std::max(law_.depth_limit, largest_radius);
-  Box box;
-  for (std::size_t v = 0; v < primary.masses.size(); ++v) box.include(row(primary.positions, v), reach);
-  candidates_.clear();
-  Box narrow;
-  for (std::size_t i = 0; i < secondary.masses.size(); ++i) {
-    const Vector3 p = row(secondary.positions, i);
-    if (!box.holds(p)) continue;
-    candidates_.push_back(i);
-    narrow.include(p, law_.depth_limit);
+PenaltyContact::PenaltyContact(const ContactLaw& law)
+    : law_(law),
+      margin_(law.depth_limit),
+      secondary_points_({law.depth_limit, law.mirror, false}),
+      primary_points_({law.depth_limit, law.mirror, true}),
+      springs_(law) {}
+
+void PenaltyContact::set_topology(const Body& primary, const Body& secondary) {
+  springs_.settle_as_before(last_step_, touches_);
+  touches_.clear();
+  if (!std::ranges::equal(primary.triangles, primary_triangles_)) {
+    first_ = make_surface_topology(primary.triangles, primary.positions, law_.mirror);
+    primary_triangles_.assign(primary.triangles.begin(), primary.triangles.end());
   }
-  if (candidates_.empty()) return;
-  update_surface_normals(normals_, primary.positions, primary.triangles, law_.mirror);
-  grid_.build(primary.positions, primary.triangles, narrow.low, narrow.high, law_.depth_limit, reach);
+  secondary_points_.set_topology(secondary, primary);
+  if (law_.two_way || law_.edges)
+    second_ = make_surface_topology(secondary.triangles, secondary.positions, law_.mirror);
+  if (law_.two_way) primary_points_.set_topology(primary, secondary);
+  if (law_.edges) edges_.set_topology(primary, secondary, first_, second_);
+  outdated_ = true;
 }
 
-bool PenaltyContact::find_touch(const PrimarySurface& primary, const SecondaryPoints& secondary, std::size_t point,
-                                Touch& touch) const {
-  const Vector3 p = row(secondary.positions, point);
-  double least = infinity;
-  ClosestPoint best;
-  std::size_t best_triangle = 0;
-  for (const std::int32_t t : grid_.near(p)) {
-    const std::int32_t* v = &primary.triangles[3 * static_cast<std::size_t>(t)];
-    const ClosestPoint c = closest_point_on_triangle(p, row(primary.positions, v[0]), row(primary.positions, v[1]),
-                                                     row(primary.positions, v[2]));
-    if (c.squared_distance < least) {
-      least = c.squared_distance;
-      best = c;
-      best_triangle = static_cast<std::size_t>(t);
-    }
+void PenaltyContact::search(const Body& primary, const Body& secondary) {
+  margin_ = std::max(law_.depth_limit, spare * watch_.step_motion());
+  const double skin = skin_of(law_), reach = margin_ + skin;
+  secondary_points_.search(secondary, primary, first_, {}, reach);
+  if (law_.two_way) primary_points_.search(primary, secondary, second_, {}, reach);
+  if (law_.edges) edges_.search(primary, secondary, first_, second_, reach);
+  watch_.restart(primary, secondary, margin_ + std::max(largest_radius(primary), largest_radius(secondary)), skin);
+  outdated_ = false;
+  ++searches_;
+}
+
+const ContactForces& PenaltyContact::evaluate(const Body& primary, const Body& secondary, double dt) {
+  springs_.settle(primary, secondary, dt, touches_);
+  if (outdated_) {
+    watch_.restart(primary, secondary, margin_, skin_of(law_));
+    watch_.outdated(primary, secondary, dt, margin_);  // for the motion of this step
   }
-  if (least == infinity) return false;
-  const std::int32_t* v = &primary.triangles[3 * best_triangle];
-  const Vector3 foot = best.weights[0] * row(primary.positions, v[0]) + best.weights[1] * row(primary.positions, v[1]) +
-                       best.weights[2] * row(primary.positions, v[2]);
-  const Vector3 offset = p - foot;
-  const Vector3 outward = pseudo_normal(normals_, primary.triangles, best_triangle, best.feature);
-  const bool inside = dot(offset, outward) < 0;
-  const double distance = std::sqrt(least);
-  const double depth = secondary.radii[point] + (inside ? distance : -distance);
-  if (depth <= 0 || (inside && distance > law_.depth_limit)) return false;
-  // On a smooth hull the feature's own normal is steadier than the offset when the point lies on the surface.
-  const double length = norm(outward);
-  if (length == 0) return false;
-  const bool use_offset = !inside && distance > 0.1 * secondary.radii[point] && distance > 0;
-  touch = {point, best_triangle, best.weights, use_offset ? (1 / distance) * offset : (1 / length) * outward, depth};
-  return true;
+  if (outdated_ || watch_.outdated(primary, secondary, dt, margin_)) search(primary, secondary);
+  touches_.clear();
+  const double share = law_.two_way ? 0.5 : 1.0;
+  secondary_points_.find(secondary, primary, first_, {}, dt, share, touches_);
+  if (law_.two_way) primary_points_.find(primary, secondary, second_, {}, dt, share, touches_);
+  if (law_.edges) edges_.find(primary, secondary, first_, second_, dt, touches_);
+  springs_.apply(primary, secondary, dt, touches_, forces_);
+  forces_.released_energy +=
+      secondary_points_.take_dropped_energy() + primary_points_.take_dropped_energy() + edges_.take_dropped_energy();
+  last_step_ = dt;
+  return forces_;
 }
 
-void PenaltyContact::apply(const PrimarySurface& primary, const SecondaryPoints& secondary, const Touch& touch,
-                           double dt) {
-  const std::int32_t* v = &primary.triangles[3 * touch.triangle];
-  const double primary_mass = mass_at(primary, v, touch.weights);
-  const double secondary_mass = secondary.masses[touch.point];
-  const double reduced_mass = primary_mass * secondary_mass / (primary_mass + secondary_mass);
-  const double bound = law_.stiffness_factor * reduced_mass / (dt * dt);
-  double stiffness = bound;
-  const std::int64_t id = secondary.ids[touch.point];
-  if (const auto before = stiffness_before_.find(id); before != stiffness_before_.end()) {
-    stiffness = std::min(bound, before->second);
-    forces_.released_energy += 0.5 * (before->second - stiffness) * touch.depth * touch.depth;
+double PenaltyContact::quiet_time(const Body& primary, const Body& secondary, double acceleration) const {
+  double quiet = secondary_points_.quiet_time(secondary, primary, law_.depth_limit, acceleration);
+  if (law_.two_way)
+    quiet = std::min(quiet, primary_points_.quiet_time(primary, secondary, law_.depth_limit, acceleration));
+  if (law_.edges)
+    quiet = std::min(quiet, edges_.quiet_time(primary, secondary, first_, second_, law_.depth_limit, acceleration));
+  return quiet;
+}
+
+SelfContact::SelfContact(const ContactLaw& law)
+    : law_(law), margin_(law.depth_limit), points_({law.depth_limit, law.mirror, false}), springs_(law) {}
+
+void SelfContact::set_topology(const Body& body) {
+  springs_.settle_as_before(last_step_, touches_);
+  touches_.clear();
+  topology_ = make_surface_topology(body.triangles, body.positions, law_.mirror);
+  points_.set_topology(body, body);
+  outdated_ = true;
+}
+
+const ContactForces& SelfContact::evaluate(const Body& body, const Exclusion& exclusion, double dt) {
+  springs_.settle(body, body, dt, touches_);
+  if (outdated_) {
+    watch_.restart(body, body, margin_, skin_of(law_));
+    watch_.outdated(body, body, dt, margin_);
   }
-  stiffness_[id] = stiffness;
-
-  const double normal_force = stiffness * touch.depth;
-  Vector3 slip = row(secondary.velocities, touch.point);
-  for (int i = 0; i < 3; ++i) slip = slip - touch.weights[i] * row(primary.velocities, v[i]);
-  slip = slip - dot(slip, touch.normal) * touch.normal;
-  const double slip_speed = norm(slip);
-  // Friction may at most stop the sliding over about five steps: beyond that it would reverse it.
-  const double friction = std::min(law_.friction * normal_force, 0.2 * reduced_mass * slip_speed / dt);
-  Vector3 force = normal_force * touch.normal;
-  if (slip_speed > 0) force = force - (friction / slip_speed) * slip;
-
-  add_to_row(forces_.secondary, touch.point, force);
-  for (int i = 0; i < 3; ++i) add_to_row(forces_.primary, static_cast<std::size_t>(v[i]), -touch.weights[i] * force);
-  forces_.stored_energy += 0.5 * stiffness * touch.depth * touch.depth;
-  forces_.friction_power += friction * slip_speed;
-  forces_.deepest = std::max(forces_.deepest, touch.depth);
-  ++forces_.active;
-}
-
-const ContactForces& PenaltyContact::evaluate(const PrimarySurface& primary, const SecondaryPoints& secondary,
-                                              double dt) {
-  forces_.primary.assign(primary.positions.size(), 0.0);
-  forces_.secondary.assign(secondary.positions.size(), 0.0);
-  forces_.stored_energy = forces_.friction_power = forces_.released_energy = forces_.deepest = 0;
-  forces_.active = 0;
-  collect_candidates(primary, secondary);
-  touches_.resize(candidates_.size());
-  touched_.assign(candidates_.size(), 0);
-  compute::for_chunks(candidates_.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c)
-      touched_[c] = find_touch(primary, secondary, candidates_[c], touches_[c]) ? 1 : 0;
-  });
-  std::swap(stiffness_, stiffness_before_);
-  stiffness_.clear();
-  for (std::size_t c = 0; c < candidates_.size(); ++c)
-    if (touched_[c]) apply(primary, secondary, touches_[c], dt);
+  if (outdated_ || watch_.outdated(body, body, dt, margin_)) {
+    margin_ = std::max(law_.depth_limit, spare * watch_.step_motion());
+    points_.search(body, body, topology_, exclusion, margin_ + skin_of(law_));
+    watch_.restart(body, body, margin_ + largest_radius(body), skin_of(law_));
+    outdated_ = false;
+  }
+  touches_.clear();
+  points_.find(body, body, topology_, exclusion, dt, 0.5, touches_);  // nodes are looked at on both sides of a gap
+  springs_.apply(body, body, dt, touches_, forces_);
+  forces_.released_energy += points_.take_dropped_energy();
+  for (std::size_t k = 0; k < forces_.secondary.size(); ++k) forces_.secondary[k] += forces_.primary[k];
+  forces_.primary.clear();
+  last_step_ = dt;
   return forces_;
 }
 

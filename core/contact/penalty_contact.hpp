@@ -1,79 +1,87 @@
 #pragma once
-#include <cstdint>
-#include <span>
-#include <unordered_map>
-#include <vector>
+#include <memory>
 
-#include "core/contact/surface_normals.hpp"
-#include "core/contact/triangle_grid.hpp"
+#include "core/contact/contact_law.hpp"
+#include "core/contact/edge_contact.hpp"
+#include "core/contact/motion_watch.hpp"
+#include "core/contact/point_contact.hpp"
 
 namespace polynya::contact {
 
-/// The surface that others may not enter, at one time. Arrays by vertex; triangles outward oriented.
-struct PrimarySurface {
-  std::span<const double> positions;   ///< [nv][3] m
-  std::span<const double> velocities;  ///< [nv][3] m/s
-  std::span<const double> masses;      ///< [nv] kg
-  std::span<const std::int32_t> triangles;  ///< [nt][3]
-};
-
-/// Points that may not enter it: nodes (radius 0) and particles.
-struct SecondaryPoints {
-  std::span<const double> positions, velocities;  ///< [ns][3]
-  std::span<const double> masses;                 ///< [ns] kg
-  std::span<const double> radii;                  ///< [ns] m
-  std::span<const std::int64_t> ids;              ///< [ns] identity that survives renumbering
-};
-
-struct PenaltyLaw {
-  double friction = 0;           ///< Coulomb coefficient
-  double stiffness_factor = 0.1; ///< of (reduced mass) / dt^2, the bound that keeps a force held over the window stable
-  double depth_limit = 0;        ///< m, how deep below the surface a point is still found
-  std::array<bool, 2> mirror{};  ///< symmetry planes x = 0, y = 0 of the primary surface
-};
-
-struct ContactForces {
-  std::vector<double> primary;    ///< [nv][3] N
-  std::vector<double> secondary;  ///< [ns][3] N
-  double stored_energy = 0;       ///< J, sum of k depth^2 / 2
-  double friction_power = 0;      ///< W, rate at which friction dissipates
-  double released_energy = 0;     ///< J, given up when a pair's stiffness had to fall with the window
-  std::size_t active = 0;         ///< points in contact
-  double deepest = 0;             ///< m
-};
-
-/// Penalty contact of points against a surface: F = k depth along the surface's normal, Coulomb friction limited by
-/// what stops the sliding within a few steps. Forces on the two sides cancel to rounding. A pair keeps the stiffness it
-/// was born with unless a longer window forces it down.
+/// Penalty contact of two bodies, or of a body with itself.
+///
+/// What is looked at: the secondary's vertices and particles against the primary's triangles, always; with `two_way`
+/// the primary's vertices against the secondary's triangles as well; with `edges` crossing edges.
+///
+/// Stiffness is not counted twice: it belongs to vertices, in proportion to their mass, so one surface's vertices
+/// together make up the whole of a contact's stiffness per area. Looked at both ways, every vertex gets half of it: the
+/// sum over an area is the mean of what the two surfaces would have alone, whatever their meshes. Particles, which have
+/// no triangles, keep the whole. Edges come in only where their nearer ends are not in contact (EdgeContact).
+///
+/// Candidates are kept until vertices may have moved by the skin relative to the other body (MotionWatch); forces
+/// have the same bits as with a search in every step. The same holds for any number of threads. Once warm, evaluate
+/// allocates nothing.
 class PenaltyContact {
  public:
-  explicit PenaltyContact(PenaltyLaw law) : law_(law) {}
+  explicit PenaltyContact(const ContactLaw& law);
 
-  /// Call when the triangles of the primary surface changed.
-  void set_topology(std::span<const std::int32_t> triangles, std::size_t vertices);
+  /// Call before the first evaluation, and when vertices, particles or triangles of a body are others than before.
+  void set_topology(const Body& primary, const Body& secondary);
 
-  /// Forces for the configuration given, held over a step dt (s).
-  const ContactForces& evaluate(const PrimarySurface& primary, const SecondaryPoints& secondary, double dt);
+  /// Forces for the configuration given, which the last step of dt (s) led to with the velocities given; to be held
+  /// over the next step, of about the same length. Positions in the last step are taken to be straight: x - dt v.
+  const ContactForces& evaluate(const Body& primary, const Body& secondary, double dt);
+
+  /// Lower bound of the time (s) until anything can touch that evaluate looks at, from the configuration evaluated
+  /// last: every gap over the largest speed at which it can close, if no vertex is accelerated by more than
+  /// `acceleration` (m/s^2) relative to any of the other body. 0 while anything touches. Edges count only if they are
+  /// looked at.
+  double quiet_time(const Body& primary, const Body& secondary, double acceleration) const;
+
+  std::size_t searches() const { return searches_; }  ///< so far
 
  private:
-  struct Touch {
-    std::size_t point = 0, triangle = 0;
-    Vector3 weights{}, normal{};
-    double depth = 0;
-  };
-  void collect_candidates(const PrimarySurface& primary, const SecondaryPoints& secondary);
-  bool find_touch(const PrimarySurface& primary, const SecondaryPoints& secondary, std::size_t point,
-                  Touch& touch) const;
-  void apply(const PrimarySurface& primary, const SecondaryPoints& secondary, const Touch& touch, double dt);
+  void search(const Body& primary, const Body& secondary);
 
-  PenaltyLaw law_;
-  SurfaceNormals normals_;
-  TriangleGrid grid_;
-  std::vector<std::size_t> candidates_;
+  ContactLaw law_;
+  double margin_ = 0;  // m, as depth_limit, but never less than a step's motion
+  SurfaceTopology first_, second_;
+  PointContact secondary_points_, primary_points_;
+  EdgeContact edges_;
+  MotionWatch watch_;
+  ContactSprings springs_;
+  std::vector<std::int32_t> primary_triangles_;  // those that first_ was made of
   std::vector<Touch> touches_;
-  std::vector<char> touched_;
-  std::unordered_map<std::int64_t, double> stiffness_, stiffness_before_;
   ContactForces forces_;
+  std::size_t searches_ = 0;
+  double last_step_ = 0;
+  bool outdated_ = true;
 };
+
+/// Contact of a body with its own surface: of every vertex and particle with the triangles the exclusion leaves it.
+class SelfContact {
+ public:
+  explicit SelfContact(const ContactLaw& law);
+  void set_topology(const Body& body);
+  /// As PenaltyContact's, the same exclusion until the topology changes. Forces on the body's vertices are in
+  /// `secondary`, `primary` is empty.
+  const ContactForces& evaluate(const Body& body, const Exclusion& exclusion, double dt);
+
+ private:
+  ContactLaw law_;
+  double margin_ = 0;
+  SurfaceTopology topology_;
+  PointContact points_;
+  MotionWatch watch_;
+  ContactSprings springs_;
+  std::vector<Touch> touches_;
+  ContactForces forces_;
+  double last_step_ = 0;
+  bool outdated_ = true;
+};
+
+/// Has the primary surface finer parts than the secondary, so that its vertices could pass between the secondary's? By
+/// the length that a tenth of the edges fall below.
+bool is_finer(const Body& primary, const Body& secondary);
 
 }  // namespace polynya::contact

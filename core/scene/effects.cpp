@@ -62,6 +62,11 @@ Decision friction(const Scene& scene) {
   return {true, "vehicle and ice slide on each other"};
 }
 
+Decision debris_contact(const Scene& scene) {
+  if (!scene.effect("conversion")) return impossible("no particles arise without conversion");
+  return {true, "particles and faces of broken ice meet intact ice by contact where they were not part of it"};
+}
+
 Decision debris_displacement(const Scene& scene) {
   if (!scene.fluid) return impossible("the scene has no fluid");
   if (!scene.effect("conversion")) return impossible("no particles arise without conversion");
@@ -107,6 +112,7 @@ const std::vector<Rule>& rules() {
       {"cavitation", cavitation, nothing},
       {"gravity", gravity, [](Scene& s) { s.run.gravity = 0; }},
       {"friction", friction, [](Scene& s) { s.contact.friction = 0; }},
+      {"debris_contact", debris_contact, nothing},
       {"debris_displacement", debris_displacement, nothing},
       {"debris_drag", not_available, nothing},
       {"non_reflecting_boundaries", non_reflecting, make_reflecting},

@@ -135,6 +135,9 @@ void read_participants(const Values& values, Scene& scene) {
 void read_parts(const Values& values, Scene& scene) {
   scene.contact.friction = values.number("contact.friction");
   scene.contact.stiffness_factor = values.number("contact.stiffness_factor");
+  scene.contact.damping = values.number("contact.damping");
+  scene.contact.two_way = values.text("contact.two_way");
+  scene.contact.edges = values.text("contact.edges");
   if (values.has("vehicle")) scene.vehicle = read_vehicle(values);
   if (values.has("ice")) scene.ice = read_ice(values);
   if (scene.vehicle) check_hull(values, *scene.vehicle, scene.material(scene.vehicle->material));

@@ -108,6 +108,9 @@ struct Fluid {
 struct Contact {
   double friction = 0;          ///< Coulomb coefficient
   double stiffness_factor = 0;  ///< of the bound m / dt_window^2
+  double damping = 0;           ///< fraction of critical
+  std::string two_way = "auto"; ///< "auto", "on" or "off": the vehicle's vertices against the ice's surface as well
+  std::string edges = "auto";   ///< "auto", "on" or "off": edges against edges
 };
 
 /// The interface on record (core/exchange/recorder.hpp); only what differs from "all of it" is there.

@@ -77,6 +77,7 @@ template <class Part, class Visit>
 requires std::is_same_v<std::remove_const_t<Part>, Contact>
 void members(Part& p, Visit&& visit) {
   visit("friction", p.friction), visit("stiffness_factor", p.stiffness_factor);
+  visit("damping", p.damping), visit("two_way", p.two_way), visit("edges", p.edges);
 }
 
 template <class Part, class Visit>

@@ -111,6 +111,11 @@ std::vector<KeyRule> solid_rules() {
       number("ice.bending.ramp_time", dim::time, "0", "to reach that speed", 0),
       number("contact.friction", dim::none, "0.1", "Coulomb coefficient", 0, 2),
       positive("contact.stiffness_factor", dim::none, "0.1", "contact stiffness as a fraction of mass / window^2", 1),
+      number("contact.damping", dim::none, "0", "fraction of critical damping of contacts", 0, 0.5),
+      choice("contact.two_way", {"auto", "on", "off"}, "auto",
+             "the vehicle's vertices against the ice's faces as well; auto: where the vehicle's mesh is finer"),
+      choice("contact.edges", {"auto", "on", "off"}, "auto",
+             "crossing edges of vehicle and ice against each other; auto: on"),
   };
 }
 

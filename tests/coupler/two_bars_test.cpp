@@ -46,8 +46,9 @@ std::pair<ElasticBar, ElasticBar> one_process(const scene::Scene& scene) {
   };
   const std::vector<double> mass_a = masses(a), mass_b = masses(b), radii(b.surface_nodes.size(), 0.0);
   const std::vector<std::int64_t> ids(b.surface_nodes.begin(), b.surface_nodes.end());
-  contact::PenaltyContact contact({.friction = 0, .stiffness_factor = 0.1, .depth_limit = 0.0025, .mirror = {}});
-  contact.set_topology(a.triangles, mass_a.size());
+  contact::PenaltyContact contact({.stiffness_factor = 0.1, .depth_limit = 0.5 * 0.0025, .skin = 0.25 * 0.0025, .edges = true});
+  const std::vector<double> radii_a(mass_a.size(), 0.0);
+  const std::vector<std::int64_t> ids_a(a.surface_nodes.begin(), a.surface_nodes.end());
   coupler::StepLimits limits{.solid_stable = 0, .solid_factor = scene.run.step_factor, .fluid_stable = 0,
                              .fluid_factor = 1, .lag_limit = 0, .longest_span = scene.run.frame_interval / 100};
   const auto refresh = [&] {
@@ -69,8 +70,10 @@ std::pair<ElasticBar, ElasticBar> one_process(const scene::Scene& scene) {
     time += step;
     const auto xa = a.gather(a.solid.positions), va = a.gather(a.solid.velocities);
     const auto xb = b.gather(b.solid.positions), vb = b.gather(b.solid.velocities);
+    const contact::Body body_a{xa, va, mass_a, radii_a, ids_a, a.triangles}, body_b{xb, vb, mass_b, radii, ids, b.triangles};
+    if (time == step) contact.set_topology(body_a, body_b);
     const contact::ContactForces& forces =
-        contact.evaluate({xa, va, mass_a, a.triangles}, {xb, vb, mass_b, radii, ids}, step);
+        contact.evaluate(body_a, body_b, step);
     if (--left == 0) {
       finished = time >= scene.run.end_time - 5e-10;
       plan = coupler::plan_span(limits);

@@ -122,7 +122,7 @@ TEST(IceSurface, LosesTheNodesOfConvertedElementsAndGainsParticles) {
   EXPECT_NEAR(after.volumes.back(), 8e-9, 1e-22);
   // Outward orientation: the enclosed volume, with the planes closing it, is that of the living elements.
   std::vector<double> x, v;
-  vertex_motion(ice, after, x, v);
+  vertex_motion(ice, after.nodes, x, v);
   double volume = 0;
   for (std::size_t t = 0; t < after.triangles.size(); t += 3) {
     const double *a = &x[3 * static_cast<std::size_t>(after.triangles[t])], *b = &x[3 * static_cast<std::size_t>(after.triangles[t + 1])],
