@@ -45,7 +45,8 @@ class Kill(unittest.TestCase):
             progress = Path(run_folder) / "series/coupler.csv"
             started = wait_until(lambda: progress.exists() and progress.read_text().count("\n") > 20, 60)
             self.assertTrue(started, "the run did not start")
-            sockets = set(Path("/tmp").glob("polynya-*/coupler"))
+            sockets = set(Path("/tmp").glob(f"polynya-{launcher.pid}-*/coupler"))
+            self.assertEqual(len(sockets), 1)
             os.kill(processes_of(run_folder)[program], signal.SIGKILL)
             gone = wait_until(lambda: not processes_of(run_folder), 5)
             self.assertTrue(gone, f"still there 5 s after the kill: {processes_of(run_folder)}")
