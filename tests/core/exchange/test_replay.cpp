@@ -132,7 +132,7 @@ TEST(Replay, ASolverThatSendsNothingWhereItSpokeIsNamed) {
 TEST(Replay, ToleranceAllowsSmallDifferencesAndTellsTheLargest) {
   const RecordedRun run;
   Mass wrong{.wrong_window = 7, .error = 1e-12};
-  EXPECT_TRUE(holds(run.replay<ReplayEnded>(wrong, {.tolerance = 1e-9}), "1 of 21 messages differ, at most by"));
+  EXPECT_TRUE(holds(run.replay<ReplayEnded>(wrong, {.tolerance = 1e-9}), "1 of 22 messages differ, at most by"));
   Mass too_wrong{.wrong_window = 7, .error = 1};
   EXPECT_TRUE(holds(run.replay<ReplayDifference>(too_wrong, {.tolerance = 1e-16}), "window 7"));
 }
