@@ -56,7 +56,8 @@ double relative(double sent, double recorded, double scale) {
 }
 
 /// Of flattened headers: "/account/kinetic" names what lies inside of something else.
-void compare_headers(MessageDifference& all, const nlohmann::json& sent, const nlohmann::json& recorded, bool last_words) {
+void compare_headers(MessageDifference& all, const nlohmann::json& sent, const nlohmann::json& recorded,
+                     bool last_words) {
   for (const auto& [name, value] : recorded.items()) {
     const std::string field = "field '" + name.substr(1) + "'";
     if (!sent.contains(name)) {

@@ -55,6 +55,9 @@ TEST(MessageDifference, FieldsOfTheHeaderAreComparedRelativeToTheRecordedNumber)
   changed.header["account"] = {{"kinetic", 2.5}, {"internal", 1.0}};
   EXPECT_EQ(compare(changed, nested).first, "field 'account/kinetic' is 2.5, on record is 2.0");
   EXPECT_DOUBLE_EQ(compare(changed, nested).size, 0.25);
+  nested.header["kind"] = changed.header["kind"] = "finished";  // the last words
+  EXPECT_FALSE(compare(changed, nested).first.empty());
+  EXPECT_EQ(compare(changed, nested).size, 0);
 }
 
 }  // namespace
