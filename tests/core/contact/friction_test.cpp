@@ -123,3 +123,38 @@ TEST(Friction, CarriesItsSpringAlongWithTheMaterialThatTurns) {
   EXPECT_NEAR(point.positions[0], 0.5 * std::cos(turn), 2e-3);
   EXPECT_NEAR(point.positions[1], 0.5 * std::sin(turn), 2e-3);
 }
+
+TEST(Friction, DissipatesOnlyWhereSomethingSlidesAlsoOverFacesThatTurn) {
+  // A deep point is drawn over ridges of 12 degrees. The depth times the angle is no way that it has slid.
+  const double angle = 12 * std::numbers::pi / 180, depth = 0.05;
+  Mesh ridges;
+  const auto outline = [&](int n) { return Vector3{std::sin(n * angle), 0, std::cos(n * angle)}; };
+  for (int n = -4; n <= 4; ++n)
+    for (const double y : {-1.0, 1.0}) ridges.add_point(outline(n) + Vector3{0, y, 0}, {}, 1e15);
+  for (std::int32_t n = 0; n < 8; ++n)
+    ridges.triangles.insert(ridges.triangles.end(), {2 * n, 2 * n + 2, 2 * n + 3, 2 * n, 2 * n + 3, 2 * n + 1});
+  const auto place = [&](double turn, double below) {
+    return Vector3{(1 - below) * std::sin(turn), 0.1, (1 - below) * std::cos(turn)};
+  };
+  Mesh point = point_at(place(-3.4 * angle, -0.001), {});
+  PenaltyContact contact({.friction = mu, .stiffness_factor = factor, .depth_limit = 0.1, .skin = 0.01});
+  contact.set_topology(ridges.body(), point.body());
+  contact.evaluate(ridges.body(), point.body(), dt);
+  Vector3 force{};
+  double work = 0, lost = 0, stored = 0;
+  constexpr int steps = 40000;
+  for (int n = 1; n <= steps; ++n) {
+    const double part = static_cast<double>(n) / steps;
+    const Vector3 x = place((-3.4 + 6.8 * part) * angle, depth * std::min(1.0, 10 * part));
+    const Vector3 step = x - row(point.positions, 0);
+    for (std::size_t d = 0; d < 3; ++d) point.velocities[d] = step[d] / dt, point.positions[d] = x[d];
+    const ContactForces& forces = contact.evaluate(ridges.body(), point.body(), dt);
+    const Vector3 next = row(forces.secondary, 0);
+    work += 0.5 * dot(force + next, step);
+    lost += forces.friction_loss + forces.released_energy;
+    stored = forces.stored_energy;
+    force = next;
+  }
+  EXPECT_GT(lost, stored);
+  EXPECT_NEAR(lost + stored, -work, 1e-3 * lost);
+}
