@@ -82,8 +82,7 @@ Vector3 ContactSprings::friction(const Body& primary, const Body& secondary, Tou
     slip = (most / (k * stretch)) * slip;
     slid = stretch - most / k;
   }
-  const bool left_its_face = touch.kind == Touch::Kind::point && state.anchor != state.feature;
-  if (slid > 0 || state.anchor < 0 || left_its_face) {
+  if (slid > 0 || state.anchor < 0 || touch.turned) {
     const Body& pushed = touch.swapped ? primary : secondary;
     const Body& opposed = touch.swapped ? secondary : primary;
     if (touch.kind == Touch::Kind::point)

@@ -199,12 +199,16 @@ bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTo
   if (state.anchor >= 0) {
     const auto anchored = static_cast<std::size_t>(state.anchor);
     const Vector3 stretch = p - point_on(corners_of(surface, anchored), state.anchor_weights);
-    // A spring set on a face that the point has left is stretched along that face and turns with the force: seen along
-    // the new one, the depth times the angle between them would count as slip although nothing moved.
-    const Vector3 along = anchored == triangle ? stretch : tangential(stretch, face_normal(surface, anchored));
-    touch.slip = tangential(along, touch.push);
-    const double length = norm(touch.slip);
-    if (anchored != triangle && length > 0) touch.slip = (norm(along) / length) * touch.slip;
+    const Vector3 normal = face_normal(surface, anchored);
+    touch.slip = tangential(stretch, touch.push);
+    touch.turned = anchored != triangle && dot(normal, face_normal(surface, triangle)) < 1 - 1e-12;
+    if (touch.turned) {
+      // A spring set on a face that the point has left is stretched along that face and turns with the force: seen along
+      // the new one, the depth times the angle between them would count as slip although nothing moved.
+      const Vector3 along = tangential(stretch, normal);
+      touch.slip = tangential(along, touch.push);
+      if (const double length = norm(touch.slip); length > 0) touch.slip = (norm(along) / length) * touch.slip;
+    }
   }
   touch.state = &state;
   return true;
