@@ -72,8 +72,8 @@ class SameBits(unittest.TestCase):
                     time.sleep(0.01)
             except (KeyError, ProcessLookupError):
                 pass  # the run is over
-            output, errors = run.communicate(timeout=120)
-            self.assertEqual((run.returncode, errors), (0, ""))
+            _, errors = run.communicate(timeout=300)
+            self.assertEqual(run.returncode, 0, errors)
             self.assertGreater(held, 2, f"{program} was not held often enough to tell")
             self.assertEqual(results(run_folder), self.expected, f"while {program} was slow")
 
