@@ -17,6 +17,13 @@ inline Response respond(const EquationOfState& law, double rho, double e) {
   return std::visit([&](const auto& each) { return each(rho, e); }, law);
 }
 
+/// True for laws whose pressure comes from the internal energy alone.
+inline bool is_gas(const EquationOfState& law) {
+  const auto* polynomial = std::get_if<LinearPolynomial>(&law);
+  return std::holds_alternative<IdealGas>(law) ||
+         (polynomial && polynomial->c0 == 0 && polynomial->c1 == 0 && polynomial->c2 == 0 && polynomial->c3 == 0);
+}
+
 /// Isentropic bulk modulus rho c^2.
 inline double bulk_modulus(double rho, const Response& r) { return rho * r.by_density + r.pressure * r.by_energy / rho; }
 

@@ -15,11 +15,17 @@ Fluid::Fluid(Grid grid_in, Setup setup_in)
     for (auto& array : *arrays) array.assign(size, 0.0);
   }
   for (auto* array : {&pressure, &predicted_pressure, &density, &bulk_modulus, &sound_speed, &total_mass, &node_fraction,
-                      &node_mass, &volume_change, &viscosity, &rate, &donor_mass}) {
+                      &node_mass, &volume_change, &viscosity, &rate, &sweep_volume}) {
     array->assign(size, 0.0);
   }
   for (auto& d : donor) d.mass = d.energy = d.volume = std::vector<double>(size, 0.0);
-  row_materials.assign(static_cast<std::size_t>(grid.ny + 3) * (grid.nz + 3), 0);
+  for (auto* rows : {&row_materials, &row_held}) rows->assign(static_cast<std::size_t>(grid.ny + 3) * (grid.nz + 3), 0);
+  held.assign(size, 0);
+  const std::array<std::size_t, 3> faces{static_cast<std::size_t>(grid.ny) * grid.nz, static_cast<std::size_t>(grid.nx) * grid.nz,
+                                         static_cast<std::size_t>(grid.nx) * grid.ny};
+  for (int side = 0; side < 6; ++side) {
+    if (setup.boundary[side] != Boundary::wall) outflow[side].assign(faces[side / 2], {});
+  }
   label.assign(size, -1);
   ambient.assign(static_cast<std::size_t>(grid.nz) + 3, {});
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fluid_solver/phases.hpp"
+#include "fluid_solver/sweep.hpp"
 
 namespace polynya::fluid {
 namespace {
@@ -28,7 +29,9 @@ struct EdgeRow {
   int axis;
   bool at_lower_end, at_upper_end;  ///< the edge touches the outermost ghosts: no node beyond to take a slope from
 
-  void momentum(int first, int last, double* __restrict mx, double* __restrict my, double* __restrict mz) const {
+  /// With `kinetic` also the kinetic energy that the momentum carries.
+  template <bool kinetic>
+  void momentum(int first, int last, double* __restrict mx, double* __restrict my, double* __restrict mz, double* __restrict ke) const {
     const double* face_mass = fluid.face_mass[axis].data() + row;
     const double* b = fluid.node_fraction.data() + row;
     const double* mass = fluid.node_mass.data() + row;
@@ -48,9 +51,11 @@ struct EdgeRow {
         const double slope = reach * limited(middle, side);
         return forward ? f[n] + slope : f[n + s] - slope;
       };
-      mx[n] = flux * value(u);
-      my[n] = flux * value(v);
-      mz[n] = flux * value(w);
+      const double x = value(u), y = value(v), z = value(w);
+      mx[n] = flux * x;
+      my[n] = flux * y;
+      mz[n] = flux * z;
+      if (kinetic) ke[n] = 0.5 * flux * (x * x + y * y + z * z);
     }
   }
 };
@@ -107,22 +112,23 @@ void iterate_donors(Fluid& fluid, std::vector<PassingNode>& passing) {
   }
 }
 
+template <bool kinetic>
 void remap_row(Fluid& fluid, int j, int k, std::vector<double>& scratch) {
   const Grid& grid = fluid.grid;
   const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz;
   const std::size_t width = static_cast<std::size_t>(grid.nx) + 3;
-  double* buffer[5][3];
+  double* buffer[5][4];
   for (int e = 0; e < 5; ++e) {
-    for (int d = 0; d < 3; ++d) buffer[e][d] = scratch.data() + width * static_cast<std::size_t>(3 * e + d);
+    for (int d = 0; d < 4; ++d) buffer[e][d] = scratch.data() + width * static_cast<std::size_t>(4 * e + d);
   }
   const EdgeRow along{fluid, row, 1, sy, sz, 0, false, false};
   const EdgeRow below_y{fluid, row - sy, sy, 1, sz, 1, j == 1, false}, above_y{fluid, row, sy, 1, sz, 1, false, j == grid.ny + 1};
   const EdgeRow below_z{fluid, row - sz, sz, 1, sy, 2, k == 1, false}, above_z{fluid, row, sz, 1, sy, 2, false, k == grid.nz + 1};
-  along.momentum(0, grid.nx + 1, buffer[0][0], buffer[0][1], buffer[0][2]);
-  below_y.momentum(1, grid.nx + 1, buffer[1][0], buffer[1][1], buffer[1][2]);
-  above_y.momentum(1, grid.nx + 1, buffer[2][0], buffer[2][1], buffer[2][2]);
-  below_z.momentum(1, grid.nx + 1, buffer[3][0], buffer[3][1], buffer[3][2]);
-  above_z.momentum(1, grid.nx + 1, buffer[4][0], buffer[4][1], buffer[4][2]);
+  int edge = 0;
+  for (const EdgeRow* edges : {&along, &below_y, &above_y, &below_z, &above_z}) {
+    double** out = buffer[edge++];
+    edges->momentum<kinetic>(edges == &along ? 0 : 1, grid.nx + 1, out[0], out[1], out[2], out[3]);
+  }
   const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
   const double* old_mass = fluid.node_mass.data() + row;
   double* __restrict new_mass = fluid.viscosity.data() + row;  // free until the next step
@@ -139,6 +145,49 @@ void remap_row(Fluid& fluid, int j, int k, std::vector<double>& scratch) {
       out[n] = new_mass[n] > 0 ? momentum / (new_mass[n] > 0 ? new_mass[n] : 1.0) : u[n];
     }
   }
+  if (!kinetic) return;
+  const double *x = buffer[0][3], *y0 = buffer[1][3], *y1 = buffer[2][3], *z0 = buffer[3][3], *z1 = buffer[4][3];
+  double* __restrict loss = fluid.force[0].data() + row;  // free until the next step
+  const auto square = [row](const std::array<std::vector<double>, 3>& u, std::ptrdiff_t n) {
+    return u[0][row + n] * u[0][row + n] + u[1][row + n] * u[1][row + n] + u[2][row + n] * u[2][row + n];
+  };
+  for (int n = 1; n <= grid.nx + 1; ++n) {
+    const double carried = (x[n - 1] - x[n]) + (y0[n] - y1[n]) + (z0[n] - z1[n]);
+    const double lost = 0.5 * (old_mass[n] * square(fluid.next_velocity, n) - new_mass[n] * square(fluid.velocity, n)) + carried;
+    loss[n] = fluid.node_fraction[row + n] >= 1.0 && new_mass[n] > 0 ? lost / (new_mass[n] > 0 ? new_mass[n] : 1.0) : 0.0;
+  }
+}
+
+/// True if a row of nodes touches a row of cells that may hold a gas.
+bool touches_gas(const Fluid& fluid, int gases, int j, int k) {
+  return gases != 0 && (gases & (materials_around(fluid, std::min(j, fluid.grid.ny), std::min(k, fluid.grid.nz)) |
+                                 materials_around(fluid, std::max(j - 1, 1), std::max(k - 1, 1)))) != 0;
+}
+
+int gases_of(const Setup& setup) { return (is_gas(setup.law[0]) ? 1 : 0) | (is_gas(setup.law[1]) ? 2 : 0); }
+
+/// Gives cells the kinetic energy that mixing of momentum has cost at their nodes, by mass, as far as they hold gas: shocks
+/// need it. Water would answer a few joules with bars, so there the account keeps it. Returns what was given, J.
+double heat_gas(Fluid& fluid, int gases) {
+  const Grid& grid = fluid.grid;
+  const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
+  return row_sum(grid, 0, [&](int j, int k) {
+    const int heated = gases & materials_around(fluid, j, k);
+    double given = 0;
+    for (int m = 0; m < 2; ++m) {
+      if (!(heated >> m & 1)) continue;
+      const std::ptrdiff_t row = grid.at(0, j, k);
+      const double *loss = fluid.force[0].data() + row, *mass = fluid.material[m].mass.data() + row;
+      double* __restrict energy = fluid.material[m].energy.data() + row;
+      for (std::ptrdiff_t i = 1; i <= grid.nx; ++i) {
+        const auto four = [loss, sy, sz](std::ptrdiff_t n) { return (loss[n] + loss[n + sy]) + (loss[n + sz] + loss[n + sy + sz]); };
+        const double heat = 0.125 * mass[i] * (four(i) + four(i + 1));
+        energy[i] += heat;
+        given += heat;
+      }
+    }
+    return given;
+  });
 }
 
 }  // namespace
@@ -147,11 +196,13 @@ void remap_momentum(Fluid& fluid) {
   std::vector<PassingNode> passing = passing_nodes(fluid);
   iterate_donors(fluid, passing);
   const Grid& grid = fluid.grid;
+  const int gases = gases_of(fluid.setup);
   const std::size_t rows_y = static_cast<std::size_t>(grid.ny) + 1, rows_z = static_cast<std::size_t>(grid.nz) + 1;
   compute::for_chunks(rows_y * rows_z, 16, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> scratch(15 * (static_cast<std::size_t>(grid.nx) + 3));
+    std::vector<double> scratch(20 * (static_cast<std::size_t>(grid.nx) + 3));
     for (std::size_t row = begin; row < end; ++row) {
-      remap_row(fluid, 1 + static_cast<int>(row % rows_y), 1 + static_cast<int>(row / rows_y), scratch);
+      const int j = 1 + static_cast<int>(row % rows_y), k = 1 + static_cast<int>(row / rows_y);
+      touches_gas(fluid, gases, j, k) ? remap_row<true>(fluid, j, k, scratch) : remap_row<false>(fluid, j, k, scratch);
     }
   });
   // The rows above took the donor velocity of passing nodes for their own.
@@ -161,6 +212,7 @@ void remap_momentum(Fluid& fluid) {
     for (int d = 0; d < 3; ++d) fluid.velocity[d][p.node] += fluid.node_mass[p.node] * (p.own[d] - p.donor[d]) / mass;
   }
   std::swap(fluid.node_mass, fluid.viscosity);
+  if (gases) fluid.account.remap_loss -= heat_gas(fluid, gases);
 }
 
 }  // namespace polynya::fluid

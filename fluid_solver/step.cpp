@@ -55,7 +55,8 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
       const auto inner = fluid.watch.lap("boundaries");
       advance_far_field(fluid, dt);
     }
-    work_and_donors(fluid, dt);
+    work_and_volumes(fluid, dt);
+    hold_cut_cells(fluid);
     set_group_donors(fluid, dt);
     book_walls(fluid, dt, walls, correction);
     {
@@ -70,7 +71,7 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     remap_cells(fluid, dt);
     {
       const auto inner = fluid.watch.lap("boundaries");
-      book_boundary_flow(fluid, dt);
+      book_boundary_flow(fluid);
     }
     mix_groups(fluid);
     {
