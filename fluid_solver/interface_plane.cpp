@@ -26,46 +26,57 @@ Standard standard(const std::array<double, 3>& normal) {
   return s;
 }
 
-constexpr double tiny = 1e-50;  // keeps quotients of vanishing components finite: their branch is then empty
-
 double square(double x) { return x * x; }
-double cube(double x) { return x * x * x; }
 
-/// Volume below m . x = a for ascending m that sum to 1 and 0 <= a <= 1/2.
-double lower_half(const std::array<double, 3>& m, double a) {
-  const auto [m1, m2, m3] = m;
-  const double m12 = m1 + m2, six = std::max(6.0 * m1 * m2 * m3, tiny);
-  if (a < m1) return cube(a) / six;
-  if (a < m2) return 0.5 * a * (a - m1) / (m2 * m3) + square(m1) / std::max(6.0 * m2 * m3, tiny);
-  if (a < std::min(m12, m3)) return (square(a) * (3 * m12 - a) + square(m1) * (m1 - 3 * a) + square(m2) * (m2 - 3 * a)) / six;
-  if (m12 < m3) return (a - 0.5 * m12) / m3;
-  return (square(a) * (3 - 2 * a) + square(m1) * (m1 - 3 * a) + square(m2) * (m2 - 3 * a) + square(m3) * (m3 - 3 * a)) / six;
+/// Value and slope.
+struct Curve {
+  double value, slope;
+};
+
+/// The volume below m . x = a is a difference of cubes in each of m1, m2, m3, over 6 m1 m2 m3. Here the differences are
+/// divided out by m1 and m2, which may be as small as they like.
+Curve first_difference(double m1, double t) {  // (t+^3 - (t - m1)+^3) / m1
+  if (t <= 0) return {0.0, 0.0};
+  if (t < m1) return {square(t) * (t / m1), 3.0 * t * (t / m1)};
+  return {3.0 * t * (t - m1) + square(m1), 6.0 * t - 3.0 * m1};
+}
+Curve second_difference(double m1, double m2, double t) {
+  if (t >= m1 + m2) return {6.0 * t - 3.0 * (m1 + m2), 6.0};
+  const Curve here = first_difference(m1, t), before = first_difference(m1, t - m2);
+  if (here.value == 0) return {0.0, 0.0};
+  return {(here.value - before.value) / m2, (here.slope - before.slope) / m2};
 }
 
-/// Middle root of the cubic whose depressed form has these coefficients.
-double middle_root(double root_p, double q) {
-  const double cosine = std::cos(std::acos(std::clamp(q, -1.0, 1.0)) / 3.0);
-  return root_p * (std::sqrt(3.0 * std::max(0.0, 1.0 - square(cosine))) - cosine);
+/// Volume below m . x = a for ascending m that sum to 1, with the area of the cut.
+Curve lower_volume(const std::array<double, 3>& m, double a) {
+  const Curve here = second_difference(m[0], m[1], a), before = second_difference(m[0], m[1], a - m[2]);
+  return {(here.value - before.value) / (6.0 * m[2]), (here.slope - before.slope) / (6.0 * m[2])};
 }
 
-/// Inverse of lower_half by its branches, 0 <= v <= 1/2.
-double inverse_lower_half(const std::array<double, 3>& m, double v) {
+/// Offset that cuts off the volume v <= 1/2: closed forms where the cut is a triangle or nearly so, as a first guess
+/// elsewhere the plane that cuts no edge; the volume is convex up to 1/2, so Newton's steps stay on one side.
+double lower_offset(const std::array<double, 3>& m, double v) {
+  if (!(v > 0)) return 0;
   const auto [m1, m2, m3] = m;
-  const double m12 = m1 + m2, six = std::max(6.0 * m1 * m2 * m3, tiny);
-  const double v1 = square(m1) / std::max(6.0 * m2 * m3, tiny), v2 = v1 + 0.5 * (m2 - m1) / m3;
-  if (v < v1) return std::cbrt(six * v);
-  if (v < v2) return 0.5 * (m1 + std::sqrt(square(m1) + 8.0 * m2 * m3 * (v - v1)));
-  const double v3 = m3 < m12 ? (square(m3) * (3 * m12 - m3) + square(m1) * (m1 - 3 * m3) + square(m2) * (m2 - 3 * m3)) / six
-                             : 0.5 * m12 / m3;
-  if (v < v3) return middle_root(std::sqrt(2.0 * m1 * m2), 0.75 * (m12 - 2.0 * m3 * v) / std::sqrt(std::max(2.0 * m1 * m2, tiny))) + m12;
-  if (m12 < m3) return m3 * v + 0.5 * m12;
-  const double p = m1 * (m2 + m3) + m2 * m3 - 0.25;
-  return middle_root(std::sqrt(p), 1.5 * m1 * m2 * m3 * (0.5 - v) / (p * std::sqrt(p))) + 0.5;
+  double low = 0, high = 0.5, a = 0;
+  if (6.0 * m2 * m3 * v < square(m1)) a = std::cbrt(6.0 * m1 * m2 * m3 * v);
+  else a = std::min({0.5, m3 * v + 0.5 * (m1 + m2), 0.5 * (m1 + std::sqrt(8.0 * m2 * m3 * v))});
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    const Curve here = lower_volume(m, a);
+    const double miss = here.value - v;
+    if (std::abs(miss) <= 2e-16 * v) break;
+    (miss > 0 ? high : low) = a;
+    double next = here.slope > 0 ? a - miss / here.slope : 0.5 * (low + high);
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    if (std::abs(next - a) <= 1e-16 * a) break;
+    a = next;
+  }
+  return a;
 }
 
 double below(const Standard& s, double offset) {
   const double a = std::clamp((offset + s.shift) / s.sum, 0.0, 1.0);
-  return a <= 0.5 ? lower_half(s.m, a) : 1.0 - lower_half(s.m, 1.0 - a);
+  return a <= 0.5 ? lower_volume(s.m, a).value : 1.0 - lower_volume(s.m, 1.0 - a).value;
 }
 
 }  // namespace
@@ -74,19 +85,7 @@ double fraction_below(const InterfacePlane& plane) { return below(standard(plane
 
 double offset_for(const std::array<double, 3>& normal, double fraction) {
   const Standard s = standard(normal);
-  const double part = std::min(fraction, 1.0 - fraction);
-  // The closed form loses digits where branches meet; the volume grows with the offset, so a bracket and secants mend it.
-  double low = 0, high = 0.5, a = std::clamp(inverse_lower_half(s.m, std::max(part, 0.0)), 0.0, 0.5);
-  for (int iteration = 0; iteration < 60; ++iteration) {
-    const double miss = lower_half(s.m, a) - part;
-    if (std::abs(miss) <= 1e-15 * part) break;
-    (miss > 0 ? high : low) = a;
-    const double step = 1e-6 * (a > 0.25 ? -1.0 : 1.0), slope = (lower_half(s.m, a + step) - (miss + part)) / step;
-    double next = slope > 0 ? a - miss / slope : 0.5 * (low + high);
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - a) <= 1e-16) break;
-    a = next;
-  }
+  const double a = lower_offset(s.m, std::min(fraction, 1.0 - fraction));
   return (fraction <= 0.5 ? a : 1.0 - a) * s.sum - s.shift;
 }
 

@@ -9,7 +9,7 @@ struct InterfacePlane {
   double offset = 0;
 };
 
-/// Part of the unit cube below the plane. (Scardovelli & Zaleski 2000, J. Comput. Phys. 164:228.)
+/// Part of the unit cube below the plane. (Compare Scardovelli & Zaleski 2000, J. Comput. Phys. 164:228.)
 double fraction_below(const InterfacePlane& plane);
 
 /// Offset at which the plane with this normal cuts off this fraction of the unit cube, 0 <= fraction <= 1.
