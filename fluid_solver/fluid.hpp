@@ -115,6 +115,7 @@ struct Fluid {
     std::array<double, 2> mass{}, energy{};             ///< kg, J
   };
   std::array<std::vector<Outflow>, 6> outflow;          ///< of the last remap, by side and face
+  std::vector<unsigned char> cut_rows;                  ///< 1 where face coefficients or volumes may change, by row
   std::vector<unsigned char> row_materials;             ///< bit 1 water, bit 2 air, by row (j + (ny+3)*k)
   std::vector<std::int32_t> label;
 

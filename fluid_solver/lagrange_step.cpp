@@ -42,11 +42,11 @@ void face_rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& ve
 
 void mean_face_rates(Fluid& fluid) { rates<true>(fluid, fluid.next_velocity, fluid.face_rate); }
 
-void accelerate_nodes(Fluid& fluid, double dt) {
+double accelerate_nodes(Fluid& fluid, double dt) {
   const Grid& grid = fluid.grid;
   const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
   const double g = fluid.setup.gravity;
-  const double dissipated = row_sum(grid, 1, [&](int j, int k) {
+  const auto [dissipated, kinetic] = row_sums<2>(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
     const double *m = fluid.total_mass.data() + row, *p = fluid.predicted_pressure.data() + row, *rho = fluid.density.data() + row;
     const double *ax = fluid.face_coefficient[0].data() + row, *ay = fluid.face_coefficient[1].data() + row,
@@ -60,7 +60,7 @@ void accelerate_nodes(Fluid& fluid, double dt) {
     double* __restrict mass = fluid.node_mass.data() + row;
     const double low = 0.5 * g * grid.dz[k - 1], high = 0.5 * g * grid.dz[k];
     const auto lift = [&](std::ptrdiff_t f) { return p[f - sz] - p[f] - (low * rho[f - sz] + high * rho[f]); };
-    double loss = 0;
+    double loss = 0, moving = 0;
     for (std::ptrdiff_t n = 1; n <= grid.nx + 1; ++n) {
       const std::ptrdiff_t y = n - sy, z = n - sz, yz = n - sy - sz;
       const double node = 0.125 * (((m[n] + m[n - 1]) + (m[y] + m[y - 1])) + ((m[z] + m[z - 1]) + (m[yz] + m[yz - 1])));
@@ -73,11 +73,13 @@ void accelerate_nodes(Fluid& fluid, double dt) {
       vn[n] = v[n] + per_mass * (b[n] * fy + hy[n]);
       wn[n] = w[n] + per_mass * (b[n] * fz + hz[n]);
       mass[n] = node;
+      moving += 0.5 * node * (un[n] * un[n] + vn[n] * vn[n] + wn[n] * wn[n]);
       loss -= 0.5 * (node > 0 ? dt : 0.0) * (hx[n] * (u[n] + un[n]) + hy[n] * (v[n] + vn[n]) + hz[n] * (w[n] + wn[n]));
     }
-    return loss;
+    return std::array<double, 2>{loss, moving};
   });
   fluid.account.hourglass += dissipated;
+  return kinetic;
 }
 
 void work_and_volumes(Fluid& fluid, double dt) {

@@ -22,14 +22,14 @@ inline double limited(double a, double b) {
   return product > 0 ? 2.0 * product / (a + b) : 0.0;
 }
 
-/// Adds sign * (momentum carried over the edges from n+shift to n+shift+s) to `momentum` for n in 0..count.
+/// A row of edges from nodes n to nodes n + s.
 struct EdgeRow {
   const Fluid& fluid;
   std::ptrdiff_t row, s, t1, t2;
   int axis;
   bool at_lower_end, at_upper_end;  ///< the edge touches the outermost ghosts: no node beyond to take a slope from
 
-  /// With `kinetic` also the kinetic energy that the momentum carries.
+  /// Momentum that the edges carry; with `kinetic` also the kinetic energy.
   template <bool kinetic>
   void momentum(int first, int last, double* __restrict mx, double* __restrict my, double* __restrict mz, double* __restrict ke) const {
     const double* face_mass = fluid.face_mass[axis].data() + row;
@@ -112,52 +112,6 @@ void iterate_donors(Fluid& fluid, std::vector<PassingNode>& passing) {
   }
 }
 
-template <bool kinetic>
-void remap_row(Fluid& fluid, int j, int k, std::vector<double>& scratch) {
-  const Grid& grid = fluid.grid;
-  const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz;
-  const std::size_t width = static_cast<std::size_t>(grid.nx) + 3;
-  double* buffer[5][4];
-  for (int e = 0; e < 5; ++e) {
-    for (int d = 0; d < 4; ++d) buffer[e][d] = scratch.data() + width * static_cast<std::size_t>(4 * e + d);
-  }
-  const EdgeRow along{fluid, row, 1, sy, sz, 0, false, false};
-  const EdgeRow below_y{fluid, row - sy, sy, 1, sz, 1, j == 1, false}, above_y{fluid, row, sy, 1, sz, 1, false, j == grid.ny + 1};
-  const EdgeRow below_z{fluid, row - sz, sz, 1, sy, 2, k == 1, false}, above_z{fluid, row, sz, 1, sy, 2, false, k == grid.nz + 1};
-  int edge = 0;
-  for (const EdgeRow* edges : {&along, &below_y, &above_y, &below_z, &above_z}) {
-    double** out = buffer[edge++];
-    edges->momentum<kinetic>(edges == &along ? 0 : 1, grid.nx + 1, out[0], out[1], out[2], out[3]);
-  }
-  const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
-  const double* old_mass = fluid.node_mass.data() + row;
-  double* __restrict new_mass = fluid.viscosity.data() + row;  // free until the next step
-  for (std::ptrdiff_t n = 1; n <= grid.nx + 1; ++n) {
-    const auto pair = [&](std::ptrdiff_t c) { return (m0[c] + m1[c]) + (m0[c - 1] + m1[c - 1]); };
-    new_mass[n] = 0.125 * ((pair(n) + pair(n - sy)) + (pair(n - sz) + pair(n - sy - sz)));
-  }
-  for (int d = 0; d < 3; ++d) {
-    const double* u = fluid.next_velocity[d].data() + row;
-    double* __restrict out = fluid.velocity[d].data() + row;
-    const double *x = buffer[0][d], *y0 = buffer[1][d], *y1 = buffer[2][d], *z0 = buffer[3][d], *z1 = buffer[4][d];
-    for (int n = 1; n <= grid.nx + 1; ++n) {
-      const double momentum = old_mass[n] * u[n] + ((x[n - 1] - x[n]) + (y0[n] - y1[n]) + (z0[n] - z1[n]));
-      out[n] = new_mass[n] > 0 ? momentum / (new_mass[n] > 0 ? new_mass[n] : 1.0) : u[n];
-    }
-  }
-  if (!kinetic) return;
-  const double *x = buffer[0][3], *y0 = buffer[1][3], *y1 = buffer[2][3], *z0 = buffer[3][3], *z1 = buffer[4][3];
-  double* __restrict loss = fluid.force[0].data() + row;  // free until the next step
-  const auto square = [row](const std::array<std::vector<double>, 3>& u, std::ptrdiff_t n) {
-    return u[0][row + n] * u[0][row + n] + u[1][row + n] * u[1][row + n] + u[2][row + n] * u[2][row + n];
-  };
-  for (int n = 1; n <= grid.nx + 1; ++n) {
-    const double carried = (x[n - 1] - x[n]) + (y0[n] - y1[n]) + (z0[n] - z1[n]);
-    const double lost = 0.5 * (old_mass[n] * square(fluid.next_velocity, n) - new_mass[n] * square(fluid.velocity, n)) + carried;
-    loss[n] = fluid.node_fraction[row + n] >= 1.0 && new_mass[n] > 0 ? lost / (new_mass[n] > 0 ? new_mass[n] : 1.0) : 0.0;
-  }
-}
-
 /// True if a row of nodes touches a row of cells that may hold a gas.
 bool touches_gas(const Fluid& fluid, int gases, int j, int k) {
   return gases != 0 && (gases & (materials_around(fluid, std::min(j, fluid.grid.ny), std::min(k, fluid.grid.nz)) |
@@ -165,6 +119,100 @@ bool touches_gas(const Fluid& fluid, int gases, int j, int k) {
 }
 
 int gases_of(const Setup& setup) { return (is_gas(setup.law[0]) ? 1 : 0) | (is_gas(setup.law[1]) ? 2 : 0); }
+
+/// What a row of edges carries: momentum along x, y, z, and kinetic energy.
+struct Carried {
+  std::array<double*, 4> of{};
+};
+
+/// Rows of nodes in the order of their layers: what the edges towards higher y and z carry is kept for the next row and
+/// the next layer.
+class March {
+ public:
+  March(Fluid& fluid, int gases)
+      : fluid_(fluid), grid_(fluid.grid), gases_(gases), width_(static_cast<std::size_t>(grid_.nx) + 3),
+        storage_(scratch()) {
+    storage_.resize(4 * width_ * (static_cast<std::size_t>(grid_.ny) + 6));
+  }
+
+  void run(int first, int last) {
+    for (int j = 1; j <= grid_.ny + 1; ++j) carry_z(j, first - 1, layer(j));
+    for (int k = first; k <= last; ++k) {
+      carry_y(0, k, slot(1));
+      for (int j = 1; j <= grid_.ny + 1; ++j) {
+        const std::ptrdiff_t row = grid_.at(0, j, k);
+        const Carried x = slot(0), y0 = slot(1 + (j + 1) % 2), y1 = slot(1 + j % 2), z0 = layer(j), z1 = slot(3);
+        carry({fluid_, row, 1, grid_.sy, grid_.sz, 0, false, false}, 0, gas(j, k), x);
+        carry_y(j, k, y1);
+        carry_z(j, k, z1);
+        update(row, gas(j, k), x, y0, y1, z0, z1);
+        for (std::size_t n = 0; n < 4 * width_; ++n) z0.of[0][n] = z1.of[0][n];
+      }
+    }
+  }
+
+ private:
+  /// Kept from step to step: allocating it anew costs as much as using it.
+  static std::vector<double>& scratch() {
+    thread_local std::vector<double> kept;
+    return kept;
+  }
+  Carried at(std::size_t place) {
+    double* start = storage_.data() + 4 * width_ * place;
+    return {{start, start + width_, start + 2 * width_, start + 3 * width_}};
+  }
+  Carried slot(int s) { return at(static_cast<std::size_t>(s)); }
+  Carried layer(int j) { return at(static_cast<std::size_t>(j) + 3); }
+  bool gas(int j, int k) const { return touches_gas(fluid_, gases_, std::clamp(j, 1, grid_.ny + 1), std::clamp(k, 1, grid_.nz + 1)); }
+
+  void carry(const EdgeRow& edges, int first, bool kinetic, const Carried& out) {
+    kinetic ? edges.momentum<true>(first, grid_.nx + 1, out.of[0], out.of[1], out.of[2], out.of[3])
+            : edges.momentum<false>(first, grid_.nx + 1, out.of[0], out.of[1], out.of[2], out.of[3]);
+  }
+  void carry_y(int j, int k, const Carried& out) {
+    carry({fluid_, grid_.at(0, j, k), grid_.sy, 1, grid_.sz, 1, j == 0, j == grid_.ny + 1}, 1, gas(j, k) || gas(j + 1, k), out);
+  }
+  void carry_z(int j, int k, const Carried& out) {
+    carry({fluid_, grid_.at(0, j, k), grid_.sz, 1, grid_.sy, 2, k == 0, k == grid_.nz + 1}, 1, gas(j, k) || gas(j, k + 1), out);
+  }
+
+  void update(std::ptrdiff_t row, bool kinetic, const Carried& x, const Carried& y0, const Carried& y1, const Carried& z0, const Carried& z1) {
+    const std::ptrdiff_t sy = grid_.sy, sz = grid_.sz;
+    const double *m0 = fluid_.material[0].mass.data() + row, *m1 = fluid_.material[1].mass.data() + row;
+    const double* old_mass = fluid_.node_mass.data() + row;
+    double* __restrict new_mass = fluid_.viscosity.data() + row;  // free until the next step
+    for (std::ptrdiff_t n = 1; n <= grid_.nx + 1; ++n) {
+      const auto pair = [&](std::ptrdiff_t c) { return (m0[c] + m1[c]) + (m0[c - 1] + m1[c - 1]); };
+      new_mass[n] = 0.125 * ((pair(n) + pair(n - sy)) + (pair(n - sz) + pair(n - sy - sz)));
+    }
+    const auto gained = [&](int d, int n) {
+      return (x.of[d][n - 1] - x.of[d][n]) + (y0.of[d][n] - y1.of[d][n]) + (z0.of[d][n] - z1.of[d][n]);
+    };
+    for (int d = 0; d < 3; ++d) {
+      const double* u = fluid_.next_velocity[d].data() + row;
+      double* __restrict out = fluid_.velocity[d].data() + row;
+      for (int n = 1; n <= grid_.nx + 1; ++n) {
+        const double momentum = old_mass[n] * u[n] + gained(d, n);
+        out[n] = new_mass[n] > 0 ? momentum / (new_mass[n] > 0 ? new_mass[n] : 1.0) : u[n];
+      }
+    }
+    if (!kinetic) return;
+    double* __restrict loss = fluid_.force[0].data() + row;  // free until the next step
+    const auto square = [row](const std::array<std::vector<double>, 3>& u, std::ptrdiff_t n) {
+      return u[0][row + n] * u[0][row + n] + u[1][row + n] * u[1][row + n] + u[2][row + n] * u[2][row + n];
+    };
+    for (int n = 1; n <= grid_.nx + 1; ++n) {
+      const double lost = 0.5 * (old_mass[n] * square(fluid_.next_velocity, n) - new_mass[n] * square(fluid_.velocity, n)) + gained(3, n);
+      loss[n] = fluid_.node_fraction[row + n] >= 1.0 && new_mass[n] > 0 ? lost / (new_mass[n] > 0 ? new_mass[n] : 1.0) : 0.0;
+    }
+  }
+
+  Fluid& fluid_;
+  const Grid& grid_;
+  int gases_;
+  std::size_t width_;
+  std::vector<double>& storage_;
+};
 
 /// Gives cells the kinetic energy that mixing of momentum has cost at their nodes, by mass, as far as they hold gas: shocks
 /// need it. Water would answer a few joules with bars, so there the account keeps it. Returns what was given, J.
@@ -197,13 +245,9 @@ void remap_momentum(Fluid& fluid) {
   iterate_donors(fluid, passing);
   const Grid& grid = fluid.grid;
   const int gases = gases_of(fluid.setup);
-  const std::size_t rows_y = static_cast<std::size_t>(grid.ny) + 1, rows_z = static_cast<std::size_t>(grid.nz) + 1;
-  compute::for_chunks(rows_y * rows_z, 16, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> scratch(20 * (static_cast<std::size_t>(grid.nx) + 3));
-    for (std::size_t row = begin; row < end; ++row) {
-      const int j = 1 + static_cast<int>(row % rows_y), k = 1 + static_cast<int>(row / rows_y);
-      touches_gas(fluid, gases, j, k) ? remap_row<true>(fluid, j, k, scratch) : remap_row<false>(fluid, j, k, scratch);
-    }
+  const std::size_t layers = static_cast<std::size_t>(grid.nz) + 1;
+  compute::for_chunks(layers, std::max<std::size_t>(1, layers / 16), [&](std::size_t begin, std::size_t end) {
+    March(fluid, gases).run(static_cast<int>(begin) + 1, static_cast<int>(end));
   });
   // The rows above took the donor velocity of passing nodes for their own.
   for (const PassingNode& p : passing) {

@@ -49,7 +49,8 @@ double linear_viscosity(const Fluid& fluid);
 
 /// lagrange_step.cpp
 void face_rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity, std::array<std::vector<double>, 3>& rate);
-void accelerate_nodes(Fluid& fluid, double dt);
+/// Returns the kinetic energy of the new velocities, J.
+double accelerate_nodes(Fluid& fluid, double dt);
 void work_and_volumes(Fluid& fluid, double dt);
 /// Lists the cells that solids cut and members of groups, and what they will give in the remap.
 void hold_cut_cells(Fluid& fluid);
@@ -60,7 +61,6 @@ void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls, con
 void mean_face_rates(Fluid& fluid);
 
 /// fluid.cpp
-double kinetic_energy(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity);
 void update_node_mass(Fluid& fluid);
 
 /// hourglass.cpp

@@ -35,7 +35,7 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     evaluate_cells(fluid, fluid.before.volume);
     evaluate_groups(fluid);
   }
-  double kinetic_before_remap = 0;
+  double kinetic_before_remap = 0, taken_from_nodes = 0;
   {
     const auto lap = fluid.watch.lap("lagrange");
     face_rates(fluid, fluid.velocity, fluid.face_rate);
@@ -49,7 +49,7 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
       const auto inner = fluid.watch.lap("hourglass");
       hourglass_force(fluid);
     }
-    accelerate_nodes(fluid, dt);
+    kinetic_before_remap = accelerate_nodes(fluid, dt);
     mean_face_rates(fluid);
     {
       const auto inner = fluid.watch.lap("boundaries");
@@ -63,7 +63,6 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
       const auto inner = fluid.watch.lap("boundaries");
       book_boundary(fluid, dt, walls);
     }
-    kinetic_before_remap = kinetic_energy(fluid, fluid.next_velocity);
   }
   {
     const auto lap = fluid.watch.lap("remap");
@@ -83,16 +82,17 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
   }
   {
     const auto lap = fluid.watch.lap("wall nodes");
-    const double kinetic_after_remap = kinetic_energy(fluid, fluid.velocity);
-    account.remap_loss += kinetic_before_remap - kinetic_after_remap;
+    taken_from_nodes = -account.node_fix;
     fix_covered_nodes(fluid);
     close_wall_nodes(fluid);
+    taken_from_nodes += account.node_fix;
   }
   {
     const auto lap = fluid.watch.lap("account");
     fluid.time += dt;
     ++fluid.steps;
     update_account(fluid);
+    account.remap_loss += kinetic_before_remap - (account.kinetic + taken_from_nodes);
     check_state(fluid);
   }
 }

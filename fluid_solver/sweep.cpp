@@ -14,10 +14,12 @@ namespace polynya::fluid {
 namespace {
 
 /// Contents of a row of cells per present volume. `plain` is 1 where a material fills the cell and slopes are meant.
+/// Rows that are not `general` hold one material and nothing else: their other arrays are those of all such rows.
 struct CellRow {
   std::vector<double> storage;
   double* inverse = nullptr;  ///< of the present volume
   std::array<double*, 2> mass{}, energy{}, fraction{}, plain{};
+  std::array<const double*, 2> seen_mass{}, seen_energy{}, seen_fraction{}, seen_plain{};
   bool general = false;
   int materials = 0;
 
@@ -87,6 +89,8 @@ class Pencil {
         width_(static_cast<std::size_t>(grid_.nx) + 3) {
     for (int r = 0; r < (axis == 0 ? 1 : 4); ++r) rows_.emplace_back(width_);
     for (int r = 0; r < (axis == 0 ? 1 : 2); ++r) faces_.emplace_back(width_);
+    ones_.assign(width_ + 4, 1.0);
+    zeros_.assign(width_ + 4, 0.0);
     if (axis == 0) {
       part_.assign(width_, 0.5);
       for (int i = 1; i <= grid_.nx; ++i) part_[static_cast<std::size_t>(i)] = slope_part(grid_.dx, i);
@@ -100,7 +104,7 @@ class Pencil {
     load(row, j, k);
     const int n = grid_.nx;
     for (double* array : {row.inverse, row.mass[0], row.mass[1], row.energy[0], row.energy[1], row.plain[0], row.plain[1]}) {
-      array[-1] = array[0] = array[1];
+      array[-1] = array[0] = array[1];  // beyond the ends the cells repeat: no slope in the outermost
       array[n + 1] = array[n + 2] = array[n];
     }
     const std::ptrdiff_t at = grid_.at(0, j, k);
@@ -110,7 +114,7 @@ class Pencil {
     const auto slope_of = [part](int i) { return Slopes{part[i - 1], part[i]}; };
     for (int m = 0; m < 2; ++m) {
       if (!(row.materials >> m & 1)) continue;
-      carry_material(row.general, 1, n + 1, face, m, row.inverse - 1, row.inverse, line(row.mass[m]), line(row.energy[m]), line(row.plain[m]), slope_of);
+      carry_material(row.general, 1, n + 1, face, m, row.inverse - 1, row.inverse, line(row.seen_mass[m]), line(row.seen_energy[m]), line(row.seen_plain[m]), slope_of);
       if (row.general) {
         for (int i = 1; i <= n + 1; ++i) face.volume[m][i] = face.swept[i] * (face.swept[i] > 0 ? row.fraction[m][i - 1] : row.fraction[m][i]);
       }
@@ -143,14 +147,12 @@ class Pencil {
       const bool general = a.general || b.general || c.general || d.general;
       const Slopes part{lowest ? 0.5 : slope_part(widths, f - 1), highest ? 0.5 : slope_part(widths, f)};
       for (int m = 0; m < 2; ++m) {
-        if (!(materials >> m & 1)) {
-          for (auto* array : {&face.mass, &face.energy, &face.volume}) std::fill_n((*array)[m], width_, 0.0);
-          continue;
-        }
-        const auto line = [&](std::array<double*, 2> CellRow::*of) { return Line{(a.*of)[m], (b.*of)[m], (c.*of)[m], (d.*of)[m]}; };
-        carry_material(general, 1, grid_.nx, face, m, b.inverse, c.inverse, line(&CellRow::mass), line(&CellRow::energy), line(&CellRow::plain),
+        if (!(materials >> m & 1)) continue;
+        const auto line = [&](std::array<const double*, 2> CellRow::*of) { return Line{(a.*of)[m], (b.*of)[m], (c.*of)[m], (d.*of)[m]}; };
+        carry_material(general, 1, grid_.nx, face, m, b.inverse, c.inverse, line(&CellRow::seen_mass), line(&CellRow::seen_energy), line(&CellRow::seen_plain),
                        [part](int) { return part; });
-        for (int i = 1; i <= grid_.nx; ++i) face.volume[m][i] = face.swept[i] * (face.swept[i] > 0 ? b.fraction[m][i] : c.fraction[m][i]);
+        if (!general) continue;
+        for (int i = 1; i <= grid_.nx; ++i) face.volume[m][i] = face.swept[i] * (face.swept[i] > 0 ? b.seen_fraction[m][i] : c.seen_fraction[m][i]);
       }
       if (materials == 3) {
         for (int i = 1; i <= grid_.nx; ++i) shared_donor(face, i, at + i, grid_.stride(axis_));
@@ -174,8 +176,12 @@ class Pencil {
     for (int i = 1; i <= n; ++i) row.inverse[i] = volume[i] > 0 ? 1.0 / (volume[i] > 0 ? volume[i] : 1.0) : 0.0;
     for (int m = 0; m < 2; ++m) {
       double *mass = row.mass[m], *energy = row.energy[m], *fraction = row.fraction[m], *plain = row.plain[m];
+      row.seen_mass[m] = mass;
+      row.seen_energy[m] = energy;
+      row.seen_fraction[m] = fraction;
+      row.seen_plain[m] = plain;
       if (!(row.materials >> m & 1)) {
-        for (double* array : {mass, energy, fraction, plain}) std::fill_n(array, n + 3, 0.0);
+        row.seen_mass[m] = row.seen_energy[m] = row.seen_fraction[m] = row.seen_plain[m] = zeros_.data() + 2;
         continue;
       }
       const Material& own = fluid_.material[m];
@@ -184,8 +190,7 @@ class Pencil {
         energy[i] = own.energy[at + i] * row.inverse[i];
       }
       if (!row.general) {
-        std::fill_n(fraction, n + 3, 1.0);
-        std::fill_n(plain, n + 3, 1.0);
+        row.seen_fraction[m] = row.seen_plain[m] = ones_.data() + 2;
         continue;
       }
       const auto& held = fluid_.held;
@@ -245,7 +250,7 @@ class Pencil {
   void finish_faces(FaceRow& face, int materials, int j, int k) {
     const std::ptrdiff_t at = grid_.at(0, j, k);
     const int last = axis_ == 0 ? grid_.nx + 1 : grid_.nx;
-    if (materials == 1) smooth_faces(fluid_, dt_, axis_, j, k, face.mass[water]);
+    if (materials == 1) smooth_.faces(fluid_, dt_, axis_, j, k, face.mass[water]);
     double* __restrict total = fluid_.face_mass[axis_].data() + at;
     const double *m0 = face.mass[0], *m1 = face.mass[1];
     if (materials == 3) {
@@ -296,7 +301,8 @@ class Pencil {
   std::size_t width_;
   std::vector<CellRow> rows_;
   std::vector<FaceRow> faces_;
-  std::vector<double> part_;
+  std::vector<double> part_, ones_, zeros_;
+  FaceSmoothing smooth_;
 };
 
 }  // namespace

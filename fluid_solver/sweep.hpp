@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -35,7 +36,16 @@ void sweep(Fluid& fluid, int axis, double dt, SharedCells& shared);
 /// remap.cpp: materials that a row of cells and its neighbours all around hold: bit 1 water, bit 2 air.
 int materials_around(const Fluid& fluid, int j, int k);
 
-/// remap.cpp: adds to face masses what evens out pressures that alternate from cell to cell (rows of water only).
-void smooth_faces(const Fluid& fluid, double dt, int axis, int j, int k, double* mass);
+/// smoothing.cpp: adds to face masses what evens out pressures that alternate from cell to cell (rows of water only). Keeps
+/// means of pressures from one row of a sweep to the next.
+class FaceSmoothing {
+ public:
+  void faces(const Fluid& fluid, double dt, int axis, int j, int k, double* mass);
+
+ private:
+  const double* mean_across(const Fluid& fluid, int axis, int j, int k);
+  std::array<std::vector<double>, 2> mean_;
+  std::array<std::ptrdiff_t, 2> row_{-1, -1};
+};
 
 }  // namespace polynya::fluid
