@@ -99,21 +99,23 @@ double stable_step(const Fluid& fluid) {
   });
 }
 
-void update_account(Fluid& fluid) {
+bool update_account(Fluid& fluid) {
   const Grid& grid = fluid.grid;
-  const auto sums = row_sums<7>(grid, 1, [&](int j, int k) {
+  const auto sums = row_sums<8>(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
-    std::array<double, 7> sum{};
+    std::array<double, 8> sum{};
     if (j <= grid.ny && k <= grid.nz) {
       const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
       const double *e0 = fluid.material[0].energy.data() + row, *e1 = fluid.material[1].energy.data() + row;
-      double first = 0, second = 0, internal = 0;
+      double first = 0, second = 0, internal = 0, least = 0;
       for (int i = 1; i <= grid.nx; ++i) {
+        least = std::min(least, std::min(m0[i], m1[i]));
         first += m0[i];
         second += m1[i];
         internal += e0[i] + e1[i];
       }
       sum = {first, second, internal};
+      sum[7] = least;
     }
     const double *m = fluid.node_mass.data() + row, *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row,
                  *w = fluid.velocity[2].data() + row;
@@ -135,6 +137,8 @@ void update_account(Fluid& fluid) {
   account.internal = sums[2];
   account.momentum = {sums[3], sums[4], sums[5]};
   account.kinetic = sums[6];
+  // A value that is no number makes its sum none, and so does an infinite one.
+  return std::isfinite(sums[2] + sums[3] + sums[4] + sums[5] + sums[6]) && sums[7] >= 0;
 }
 
 void update_node_mass(Fluid& fluid) {

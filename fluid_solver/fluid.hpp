@@ -168,8 +168,8 @@ void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<do
 /// Refreshes pressure, density and sound speed from the state (also what a step does first).
 void update_cell_states(Fluid& fluid);
 
-/// Instantaneous entries of the account: energies, momentum, masses.
-void update_account(Fluid& fluid);
+/// Instantaneous entries of the account: energies, momentum, masses. False if some cell or node may have lost its meaning.
+bool update_account(Fluid& fluid);
 
 struct FluidError : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -1,5 +1,5 @@
 // Momentum of nodes moves with the mass: the dual flux between two nodes is the mean of the face masses around the edge,
-// so the mass of a node stays an eighth of its cells'. Van Leer's limited slope away from walls, donor values near them.
+// so the mass of a node stays an eighth of its cells'. Limited slopes (van Leer 1977) away from walls, donor values near them.
 #include <algorithm>
 #include <cmath>
 
@@ -18,8 +18,8 @@ inline double dual_flux(const double* face_mass, std::ptrdiff_t n, std::ptrdiff_
 }
 
 inline double limited(double a, double b) {
-  const double product = a * b;
-  return product > 0 ? 2.0 * product / (a + b) : 0.0;
+  const double product = a * b, sum = a + b;
+  return product > 0 ? 2.0 * product / (product > 0 ? sum : 1.0) : 0.0;
 }
 
 /// A row of edges from nodes n to nodes n + s.
@@ -41,15 +41,16 @@ struct EdgeRow {
     for (std::ptrdiff_t n = first; n <= last; ++n) {
       const double flux = dual_flux(face_mass, n, s, t1, t2);
       const bool forward = flux >= 0;
-      const bool smooth = b[n] >= whole && b[n + s] >= whole && (forward ? b[n + before] : b[n + beyond]) >= whole;
+      // Both sides are read whatever the direction, so that the loop needs no branch.
+      const double near = std::min(b[n], b[n + s]), lower = std::min(near, b[n + before]), upper = std::min(near, b[n + beyond]);
+      const bool smooth = (forward ? lower : upper) >= whole;
       const double donor_mass = forward ? mass[n] : mass[n + s];
-      const double courant = smooth ? std::abs(flux) / (donor_mass > 0 ? donor_mass : 1.0) : 1.0;
+      const double courant = std::abs(flux) / (donor_mass > 0 ? donor_mass : 1.0);
       const double reach = smooth ? 0.5 * (1.0 - std::min(courant, 1.0)) : 0.0;
       const auto value = [&](const double* f) {
-        const double middle = f[n + s] - f[n];
-        const double side = forward ? f[n] - f[n + before] : f[n + beyond] - f[n + s];
-        const double slope = reach * limited(middle, side);
-        return forward ? f[n] + slope : f[n + s] - slope;
+        const double own = f[n], other = f[n + s], middle = other - own, first = own - f[n + before], last = f[n + beyond] - other;
+        const double slope = reach * limited(middle, forward ? first : last);
+        return forward ? own + slope : other - slope;
       };
       const double x = value(u), y = value(v), z = value(w);
       mx[n] = flux * x;
@@ -188,13 +189,16 @@ class March {
     const auto gained = [&](int d, int n) {
       return (x.of[d][n - 1] - x.of[d][n]) + (y0.of[d][n] - y1.of[d][n]) + (z0.of[d][n] - z1.of[d][n]);
     };
-    for (int d = 0; d < 3; ++d) {
-      const double* u = fluid_.next_velocity[d].data() + row;
-      double* __restrict out = fluid_.velocity[d].data() + row;
-      for (int n = 1; n <= grid_.nx + 1; ++n) {
-        const double momentum = old_mass[n] * u[n] + gained(d, n);
-        out[n] = new_mass[n] > 0 ? momentum / (new_mass[n] > 0 ? new_mass[n] : 1.0) : u[n];
-      }
+    const double *u = fluid_.next_velocity[0].data() + row, *v = fluid_.next_velocity[1].data() + row, *w = fluid_.next_velocity[2].data() + row;
+    double* __restrict un = fluid_.velocity[0].data() + row;
+    double* __restrict vn = fluid_.velocity[1].data() + row;
+    double* __restrict wn = fluid_.velocity[2].data() + row;
+    for (int n = 1; n <= grid_.nx + 1; ++n) {
+      const bool filled = new_mass[n] > 0;
+      const double inverse = 1.0 / (filled ? new_mass[n] : 1.0);
+      un[n] = filled ? inverse * (old_mass[n] * u[n] + gained(0, n)) : u[n];
+      vn[n] = filled ? inverse * (old_mass[n] * v[n] + gained(1, n)) : v[n];
+      wn[n] = filled ? inverse * (old_mass[n] * w[n] + gained(2, n)) : w[n];
     }
     if (!kinetic) return;
     double* __restrict loss = fluid_.force[0].data() + row;  // free until the next step
