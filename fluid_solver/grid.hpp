@@ -52,6 +52,9 @@ void for_rows(const Grid& grid, int extra, Body&& body) {
   });
 }
 
+/// How many planes of this many entries a thread should take at once: threads are not worth waking for less.
+inline std::size_t planes_per_chunk(std::ptrdiff_t entries) { return 1 + static_cast<std::size_t>(2048 / (entries + 1)); }
+
 /// Several sums over rows at once: term(j, k) returns an array. Added in the order of the rows whatever the number of threads.
 template <std::size_t count, class Term>
 std::array<double, count> row_sums(const Grid& grid, int extra, Term&& term) {

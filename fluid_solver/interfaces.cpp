@@ -60,8 +60,7 @@ SharedCell lay_plane(const Fluid& fluid, std::ptrdiff_t c) {
 void find_shared_cells(Fluid& fluid, SharedCells& cells) {
   const Grid& grid = fluid.grid;
   cells.resize(static_cast<std::size_t>(grid.nz) + 2);
-  compute::for_chunks(static_cast<std::size_t>(grid.nz), 1, [&](std::size_t layer, std::size_t) {
-    const int k = static_cast<int>(layer) + 1;
+  const auto find_in_layer = [&](int k) {
     std::vector<SharedCell>& found = cells[static_cast<std::size_t>(k)];
     found.clear();
     for (int j = 1; j <= grid.ny; ++j) {
@@ -74,6 +73,9 @@ void find_shared_cells(Fluid& fluid, SharedCells& cells) {
         found.push_back(lay_plane(fluid, c));
       }
     }
+  };
+  compute::for_chunks(static_cast<std::size_t>(grid.nz), planes_per_chunk(grid.sz), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t layer = begin; layer < end; ++layer) find_in_layer(static_cast<int>(layer) + 1);
   });
 }
 

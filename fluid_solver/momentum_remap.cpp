@@ -250,7 +250,7 @@ void remap_momentum(Fluid& fluid) {
   const Grid& grid = fluid.grid;
   const int gases = gases_of(fluid.setup);
   const std::size_t layers = static_cast<std::size_t>(grid.nz) + 1;
-  compute::for_chunks(layers, std::max<std::size_t>(1, layers / 16), [&](std::size_t begin, std::size_t end) {
+  compute::for_chunks(layers, std::max(planes_per_chunk(grid.sz), layers / 16), [&](std::size_t begin, std::size_t end) {
     March(fluid, gases).run(static_cast<int>(begin) + 1, static_cast<int>(end));
   });
   // The rows above took the donor velocity of passing nodes for their own.

@@ -309,16 +309,17 @@ class Pencil {
 
 void sweep(Fluid& fluid, int axis, double dt, SharedCells& shared) {
   const Grid& grid = fluid.grid;
-  if (axis == 0) {
-    compute::for_chunks(static_cast<std::size_t>(grid.nz), 1, [&](std::size_t layer, std::size_t) {
-      Pencil pencil(fluid, 0, dt, shared);
-      for (int j = 1; j <= grid.ny; ++j) pencil.run_row(j, static_cast<int>(layer) + 1);
-    });
-    return;
-  }
-  compute::for_chunks(static_cast<std::size_t>(axis == 1 ? grid.nz : grid.ny), 1, [&](std::size_t other, std::size_t) {
+  const std::size_t planes = static_cast<std::size_t>(axis == 2 ? grid.ny : grid.nz);
+  compute::for_chunks(planes, planes_per_chunk(axis == 2 ? grid.sy * grid.nz : grid.sz), [&](std::size_t begin, std::size_t end) {
     Pencil pencil(fluid, axis, dt, shared);
-    pencil.run_rows(static_cast<int>(other) + 1);
+    for (std::size_t plane = begin; plane < end; ++plane) {
+      const int other = static_cast<int>(plane) + 1;
+      if (axis != 0) {
+        pencil.run_rows(other);
+        continue;
+      }
+      for (int j = 1; j <= grid.ny; ++j) pencil.run_row(j, other);
+    }
   });
 }
 
