@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -7,9 +8,10 @@
 namespace polynya::bench {
 namespace {
 
-constexpr int cells = 64;
+constexpr int cells = 128;
 
-/// Water to two thirds of a cube, air above, everything in motion; open boundaries.
+/// Water under a wavy surface at two thirds of a cube, air above, everything in motion; open boundaries. About 1.2 % of the
+/// cells hold both.
 std::unique_ptr<fluid::Fluid> basin() {
   std::vector<double> line;
   for (int i = 0; i <= cells; ++i) line.push_back(0.1 * i / cells);
@@ -17,8 +19,17 @@ std::unique_ptr<fluid::Fluid> basin() {
   setup.gravity = 9.81;
   setup.boundary.fill(fluid::Boundary::non_reflecting);
   auto basin = std::make_unique<fluid::Fluid>(fluid::Grid(line, line, line), setup);
-  fill_hydrostatic(*basin, {}, 0.0667);
   const fluid::Grid& grid = basin->grid;
+  const double water = fluid::density_at(setup.law[0], 101325, 0, 1000), heat = fluid::energy_at(setup.law[1], 1.2, 101325);
+  fill(*basin, {}, [&](int i, int j, int k) {
+    const double surface = 0.0667 + 0.006 * (std::sin(6.2832 * i / cells) + std::sin(6.2832 * j / cells));
+    fluid::CellState state;
+    state.fraction[0] = std::clamp((surface - grid.z[k - 1]) / grid.dz[k], 0.0, 1.0);
+    state.fraction[1] = 1 - state.fraction[0];
+    state.density = {water, 1.2};
+    state.specific_energy = {0, heat};
+    return state;
+  });
   for (int k = 1; k <= cells + 1; ++k) {
     for (int j = 1; j <= cells + 1; ++j) {
       for (int i = 1; i <= cells + 1; ++i) {

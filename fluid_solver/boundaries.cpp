@@ -48,7 +48,6 @@ void apply_ambient(Fluid& fluid) {
     along(grid, side, 0, [&](std::ptrdiff_t cell) {
       const std::ptrdiff_t ghost = side.upper ? cell + grid.stride(side.axis) : cell - grid.stride(side.axis);
       const Ambient& outside = fluid.ambient[static_cast<std::size_t>(cell / grid.sz)];
-      fluid.donor_mass[ghost] = outside.density[0] + outside.density[1];
       for (int m = 0; m < 2; ++m) {
         fluid.donor[m].mass[ghost] = outside.density[m];
         fluid.donor[m].energy[ghost] = outside.energy_density[m];
@@ -167,23 +166,19 @@ void book_boundary(Fluid& fluid, double dt, const std::vector<StepWall>& walls) 
   }
 }
 
-void book_boundary_flow(Fluid& fluid, double dt) {
+void book_boundary_flow(Fluid& fluid) {
   const Grid& grid = fluid.grid;
   Account& account = fluid.account;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     if (fluid.setup.boundary[s] == Boundary::wall) continue;
     const Side side = sides[s];
-    const std::ptrdiff_t stride = grid.stride(side.axis);
     const double outward = side.upper ? 1.0 : -1.0;
-    along(grid, side, 0, [&](std::ptrdiff_t cell) {
-      const std::ptrdiff_t face = side.upper ? cell + stride : cell, ghost = side.upper ? cell + stride : cell - stride;
-      const double volume = outward * dt * fluid.face_rate[side.axis][face];
-      const std::ptrdiff_t from = volume >= 0 ? cell : ghost;
+    for (const Fluid::Outflow& out : fluid.outflow[s]) {
       for (int m = 0; m < 2; ++m) {
-        account.boundary_mass[m] += volume * fluid.donor[m].mass[from];
-        account.boundary_energy += volume * fluid.donor[m].energy[from];
+        account.boundary_mass[m] += out.mass[m];
+        account.boundary_energy += out.energy[m];
       }
-    });
+    }
     const std::ptrdiff_t t1 = grid.stride((side.axis + 1) % 3), t2 = grid.stride((side.axis + 2) % 3);
     const double* mass = fluid.face_mass[side.axis].data();
     along(grid, side, 1, [&](std::ptrdiff_t node) {

@@ -24,8 +24,11 @@ EquationOfState law_of(const scene::MaterialCard& card) {
   }
   if (card.law == "ideal_gas") return IdealGas{card.value("ratio_of_specific_heats")};
   if (card.law == "stiffened_gas") return StiffenedGas{card.value("ratio_of_specific_heats"), card.value("stiffening_pressure")};
+  if (card.law == "tait") {
+    return Tait{card.value("density"), card.value("reference_pressure"), card.value("stiffness"), card.value("exponent")};
+  }
   throw std::runtime_error("material " + card.name + ": the law " + card.law + " is not a fluid's; expected mie_grueneisen, "
-                           "linear_polynomial, ideal_gas or stiffened_gas");
+                           "linear_polynomial, ideal_gas, stiffened_gas or tait");
 }
 
 Fluid make_fluid(const scene::Scene& scene) {

@@ -1,5 +1,5 @@
-// Pressure, density and stiffness of every cell from what it holds. Rows of one material run through one loop that
-// vectorises; rows that hold both go cell by cell.
+// Pressure, density and stiffness of every cell from what it holds. Runs of cells of one material go through one loop
+// that vectorises; cells that hold both go one by one.
 #include <algorithm>
 #include <cmath>
 
@@ -52,6 +52,21 @@ void evaluate_mixed_cell(Fluid& fluid, std::ptrdiff_t c, double volume) {
   fluid.density[c] = volume > 0 ? (mixture.mass[0] + mixture.mass[1]) / volume : 0.0;
 }
 
+/// A run of cells that hold material m alone.
+void evaluate_pure_cells(Fluid& fluid, int m, std::ptrdiff_t begin, std::ptrdiff_t end, const std::vector<double>& volume) {
+  std::visit(
+      [&](const auto& law) {
+        evaluate_row(law, fluid.setup.pressure_floor[m], fluid.setup.pressure_floor[water], begin, end, fluid.material[m].mass.data(),
+                     fluid.material[m].energy.data(), volume.data(), fluid.pressure.data(), fluid.bulk_modulus.data(),
+                     fluid.density.data(), fluid.sound_speed.data());
+      },
+      fluid.setup.law[m]);
+  for (std::ptrdiff_t c = begin; c < end; ++c) {
+    fluid.material[m].volume[c] = volume[c];
+    fluid.material[1 - m].volume[c] = 0;
+  }
+}
+
 }  // namespace
 
 void evaluate_cells(Fluid& fluid, const std::vector<double>& volume) {
@@ -67,21 +82,21 @@ void evaluate_cells(Fluid& fluid, const std::vector<double>& volume) {
     }
     const int held = (has0 > 0 ? 1 : 0) | (has1 > 0 ? 2 : 0);
     fluid.row_materials[static_cast<std::size_t>(j + (grid.ny + 3) * k)] = static_cast<unsigned char>(held);
-    if (held == 3) {
-      for (std::ptrdiff_t c = begin; c < end; ++c) evaluate_mixed_cell(fluid, c, volume[c]);
+    if (held != 3) {
+      evaluate_pure_cells(fluid, held == 2 ? 1 : 0, begin, end, volume);
       return;
     }
-    const int m = held == 2 ? 1 : 0;
-    std::visit(
-        [&](const auto& law) {
-          evaluate_row(law, fluid.setup.pressure_floor[m], fluid.setup.pressure_floor[water], begin, end, fluid.material[m].mass.data(),
-                       fluid.material[m].energy.data(), volume.data(), fluid.pressure.data(), fluid.bulk_modulus.data(),
-                       fluid.density.data(), fluid.sound_speed.data());
-        },
-        fluid.setup.law[m]);
-    for (std::ptrdiff_t c = begin; c < end; ++c) {
-      fluid.material[m].volume[c] = volume[c];
-      fluid.material[1 - m].volume[c] = 0;
+    const auto alone = [&](std::ptrdiff_t c) { return m1[c] == 0 ? 0 : m0[c] == 0 ? 1 : 2; };
+    for (std::ptrdiff_t c = begin; c < end;) {
+      const int material = alone(c);
+      if (material == 2) {
+        evaluate_mixed_cell(fluid, c, volume[c]);
+        ++c;
+        continue;
+      }
+      const std::ptrdiff_t first = c;
+      while (c < end && alone(c) == material) ++c;
+      evaluate_pure_cells(fluid, material, first, c, volume);
     }
   });
 }

@@ -7,23 +7,32 @@
 #include "fluid_solver/linear_polynomial.hpp"
 #include "fluid_solver/mie_grueneisen.hpp"
 #include "fluid_solver/stiffened_gas.hpp"
+#include "fluid_solver/tait.hpp"
 
 namespace polynya::fluid {
 
 /// One of the laws, by value. Hot loops are entered once per row with std::visit, never per cell.
-using EquationOfState = std::variant<MieGrueneisen, LinearPolynomial, IdealGas, StiffenedGas>;
+using EquationOfState = std::variant<MieGrueneisen, LinearPolynomial, IdealGas, StiffenedGas, Tait>;
 
 inline Response respond(const EquationOfState& law, double rho, double e) {
   return std::visit([&](const auto& each) { return each(rho, e); }, law);
 }
 
+/// True for laws whose pressure comes from the internal energy alone.
+inline bool is_gas(const EquationOfState& law) {
+  const auto* polynomial = std::get_if<LinearPolynomial>(&law);
+  return std::holds_alternative<IdealGas>(law) ||
+         (polynomial && polynomial->c0 == 0 && polynomial->c1 == 0 && polynomial->c2 == 0 && polynomial->c3 == 0);
+}
+
 /// Isentropic bulk modulus rho c^2.
 inline double bulk_modulus(double rho, const Response& r) { return rho * r.by_density + r.pressure * r.by_energy / rho; }
 
-/// Specific internal energy at which the law gives this pressure; all laws here are linear in the energy.
+/// Specific internal energy at which the law gives this pressure; all laws here are linear in the energy. 0 where the
+/// pressure does not depend on it.
 inline double energy_at(const EquationOfState& law, double rho, double pressure) {
   const Response cold = respond(law, rho, 0.0);
-  return (pressure - cold.pressure) / cold.by_energy;
+  return cold.by_energy > 0 ? (pressure - cold.pressure) / cold.by_energy : 0.0;
 }
 
 /// Density at which the law gives this pressure at specific energy e. Newton from `guess`.

@@ -35,12 +35,34 @@ std::vector<StepWall> join_walls(const CutGeometry& before, const CutGeometry& a
   return walls;
 }
 
+namespace {
+
+/// Rows whose coefficients solids touch, now or in the last step; the others keep theirs.
+std::vector<unsigned char> rows_to_update(Fluid& fluid) {
+  const std::ptrdiff_t width = fluid.grid.ny + 3;
+  std::vector<unsigned char> rows = fluid.cut_rows;
+  std::fill(fluid.cut_rows.begin(), fluid.cut_rows.end(), 0);
+  for (const CutGeometry* cut : {&fluid.before, &fluid.after}) {
+    for (const std::ptrdiff_t n : cut->nodes()) {
+      unsigned char* row = fluid.cut_rows.data() + n / fluid.grid.sy;
+      row[0] = row[-1] = row[-width] = row[-width - 1] = 1;
+    }
+  }
+  for (std::size_t r = 0; r < rows.size(); ++r) rows[r] |= fluid.cut_rows[r];
+  return rows;
+}
+
+}  // namespace
+
 void update_face_coefficients(Fluid& fluid) {
   const Grid& grid = fluid.grid;
   const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
   const double *b0 = fluid.before.node_fraction.data(), *b1 = fluid.after.node_fraction.data();
   double* beta = fluid.node_fraction.data();
+  const std::vector<unsigned char> rows = rows_to_update(fluid);
+  const auto unchanged = [&](int j, int k) { return rows[static_cast<std::size_t>(j + (grid.ny + 3) * k)] == 0; };
   for_rows(grid, 1, [&](int j, int k) {
+    if (unchanged(j, k)) return;
     const std::ptrdiff_t begin = grid.at(1, j, k), end = begin + grid.nx + 1;
     const double *v0 = fluid.before.volume.data(), *v1 = fluid.after.volume.data();
     double* change = fluid.volume_change.data();
@@ -50,6 +72,7 @@ void update_face_coefficients(Fluid& fluid) {
     }
   });
   for_rows(grid, 1, [&](int j, int k) {
+    if (unchanged(j, k)) return;
     const std::ptrdiff_t row = grid.at(0, j, k);
     const double area_x = grid.dy[j] * grid.dz[k], dy = grid.dy[j], dz = grid.dz[k];
     const double *x0 = fluid.before.open[0].data() + row, *x1 = fluid.after.open[0].data() + row;
@@ -74,7 +97,10 @@ void update_face_coefficients(Fluid& fluid) {
 }
 
 void apply_to_cells(Fluid& fluid, const VolumeCorrection& correction) {
-  for (std::size_t c = 0; c < correction.cells.size(); ++c) fluid.volume_change[correction.cells[c]] += correction.outflow[c];
+  for (std::size_t c = 0; c < correction.cells.size(); ++c) {
+    fluid.volume_change[correction.cells[c]] += correction.outflow[c];
+    fluid.cut_rows[static_cast<std::size_t>(correction.cells[c] / fluid.grid.sy)] = 1;
+  }
 }
 
 void apply_to_faces(Fluid& fluid, const VolumeCorrection& correction, double dt) {

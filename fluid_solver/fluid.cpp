@@ -15,11 +15,18 @@ Fluid::Fluid(Grid grid_in, Setup setup_in)
     for (auto& array : *arrays) array.assign(size, 0.0);
   }
   for (auto* array : {&pressure, &predicted_pressure, &density, &bulk_modulus, &sound_speed, &total_mass, &node_fraction,
-                      &node_mass, &volume_change, &viscosity, &rate, &donor_mass}) {
+                      &node_mass, &volume_change, &viscosity, &rate, &sweep_volume}) {
     array->assign(size, 0.0);
   }
   for (auto& d : donor) d.mass = d.energy = d.volume = std::vector<double>(size, 0.0);
-  row_materials.assign(static_cast<std::size_t>(grid.ny + 3) * (grid.nz + 3), 0);
+  for (auto* rows : {&row_materials, &row_held}) rows->assign(static_cast<std::size_t>(grid.ny + 3) * (grid.nz + 3), 0);
+  held.assign(size, 0);
+  cut_rows.assign(row_materials.size(), 1);
+  const std::array<std::size_t, 3> faces{static_cast<std::size_t>(grid.ny) * grid.nz, static_cast<std::size_t>(grid.nx) * grid.nz,
+                                         static_cast<std::size_t>(grid.nx) * grid.ny};
+  for (int side = 0; side < 6; ++side) {
+    if (setup.boundary[side] != Boundary::wall) outflow[side].assign(faces[side / 2], {});
+  }
   label.assign(size, -1);
   ambient.assign(static_cast<std::size_t>(grid.nz) + 3, {});
 }
@@ -92,43 +99,46 @@ double stable_step(const Fluid& fluid) {
   });
 }
 
-void update_account(Fluid& fluid) {
+bool update_account(Fluid& fluid) {
   const Grid& grid = fluid.grid;
-  Account& account = fluid.account;
-  account.internal = 0;
-  for (int m = 0; m < 2; ++m) {
-    const Material& own = fluid.material[m];
-    const auto sum_of = [&](const std::vector<double>& values) {
-      return row_sum(grid, 0, [&](int j, int k) {
-        const double* row = values.data() + grid.at(1, j, k);
-        double sum = 0;
-        for (int i = 0; i < grid.nx; ++i) sum += row[i];
-        return sum;
-      });
-    };
-    account.mass[m] = sum_of(own.mass);
-    account.internal += sum_of(own.energy);
-  }
-  for (int d = 0; d < 3; ++d) {
-    account.momentum[d] = row_sum(grid, 1, [&](int j, int k) {
-      const std::ptrdiff_t row = grid.at(0, j, k);
-      double sum = 0;
-      for (int n = 1; n <= grid.nx + 1; ++n) sum += fluid.node_mass[row + n] * fluid.velocity[d][row + n];
-      return sum;
-    });
-  }
-  account.kinetic = kinetic_energy(fluid, fluid.velocity);
-}
-
-double kinetic_energy(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity) {
-  const Grid& grid = fluid.grid;
-  return row_sum(grid, 1, [&](int j, int k) {
+  const auto sums = row_sums<8>(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
-    const double *m = fluid.node_mass.data() + row, *u = velocity[0].data() + row, *v = velocity[1].data() + row, *w = velocity[2].data() + row;
-    double sum = 0;
-    for (int n = 1; n <= grid.nx + 1; ++n) sum += 0.5 * m[n] * (u[n] * u[n] + v[n] * v[n] + w[n] * w[n]);
+    std::array<double, 8> sum{};
+    if (j <= grid.ny && k <= grid.nz) {
+      const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
+      const double *e0 = fluid.material[0].energy.data() + row, *e1 = fluid.material[1].energy.data() + row;
+      double first = 0, second = 0, internal = 0, least = 0;
+      for (int i = 1; i <= grid.nx; ++i) {
+        least = std::min(least, std::min(m0[i], m1[i]));
+        first += m0[i];
+        second += m1[i];
+        internal += e0[i] + e1[i];
+      }
+      sum = {first, second, internal};
+      sum[7] = least;
+    }
+    const double *m = fluid.node_mass.data() + row, *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row,
+                 *w = fluid.velocity[2].data() + row;
+    double x = 0, y = 0, z = 0, kinetic = 0;
+    for (int n = 1; n <= grid.nx + 1; ++n) {
+      x += m[n] * u[n];
+      y += m[n] * v[n];
+      z += m[n] * w[n];
+      kinetic += 0.5 * m[n] * (u[n] * u[n] + v[n] * v[n] + w[n] * w[n]);
+    }
+    sum[3] = x;
+    sum[4] = y;
+    sum[5] = z;
+    sum[6] = kinetic;
     return sum;
   });
+  Account& account = fluid.account;
+  account.mass = {sums[0], sums[1]};
+  account.internal = sums[2];
+  account.momentum = {sums[3], sums[4], sums[5]};
+  account.kinetic = sums[6];
+  // A value that is no number makes its sum none, and so does an infinite one.
+  return std::isfinite(sums[2] + sums[3] + sums[4] + sums[5] + sums[6]) && sums[7] >= 0;
 }
 
 void update_node_mass(Fluid& fluid) {

@@ -19,12 +19,16 @@ namespace polynya::fluid {
 
 inline constexpr int water = 0, air = 1;
 
+/// Shock viscosity away from solids: that of the reference in all compression, or only in compression that is not smooth.
+enum class ShockViscosity { reference, limited };
+
 /// What does not change during a run.
 struct Setup {
   std::array<EquationOfState, 2> law{MieGrueneisen{}, LinearPolynomial{}};
   std::array<double, 2> pressure_floor{2339.0, 0.0};  ///< lower bound of the absolute pressure of each material, Pa
   std::array<Boundary, 6> boundary{};                 ///< x-, x+, y-, y+, z-, z+
   std::array<double, 3> ambient_velocity{};           ///< of the fluid beyond non-reflecting boundaries, m/s
+  ShockViscosity shock_viscosity = ShockViscosity::limited;
   double gravity = 0;                                 ///< m/s^2 along -z
   double atmospheric_pressure = 101325;               ///< Pa, what gauge pressures are counted from
 };
@@ -98,11 +102,20 @@ struct Fluid {
   std::vector<double> volume_change;                    ///< of cells by what is not flow through faces, m^3
   std::vector<double> viscosity;                        ///< hourglass coefficient of cells, kg/s
   std::vector<double> rate;                             ///< of volume, at the beginning of the step, m^3/s
+  /// What leaves the cells that solids cut, and in ghosts what flows in.
   struct Donor {
     std::vector<double> mass, energy, volume;           ///< per Lagrangian volume
   };
   std::array<Donor, 2> donor;
-  std::vector<double> donor_mass;
+  std::vector<std::ptrdiff_t> held_cells;               ///< that solids cut, before or after, and members of groups: they
+                                                        ///< give what they held at the end of the Lagrange phase
+  std::vector<unsigned char> held, row_held;            ///< 1 at these cells; by row: 1 where there are some
+  std::vector<double> sweep_volume;                     ///< of cells, during the remap, m^3
+  struct Outflow {
+    std::array<double, 2> mass{}, energy{};             ///< kg, J
+  };
+  std::array<std::vector<Outflow>, 6> outflow;          ///< of the last remap, by side and face
+  std::vector<unsigned char> cut_rows;                  ///< 1 where face coefficients or volumes may change, by row
   std::vector<unsigned char> row_materials;             ///< bit 1 water, bit 2 air, by row (j + (ny+3)*k)
   std::vector<std::int32_t> label;
 
@@ -155,8 +168,8 @@ void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<do
 /// Refreshes pressure, density and sound speed from the state (also what a step does first).
 void update_cell_states(Fluid& fluid);
 
-/// Instantaneous entries of the account: energies, momentum, masses.
-void update_account(Fluid& fluid);
+/// Instantaneous entries of the account: energies, momentum, masses. False if some cell or node may have lost its meaning.
+bool update_account(Fluid& fluid);
 
 struct FluidError : std::runtime_error {
   using std::runtime_error::runtime_error;

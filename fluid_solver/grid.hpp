@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -49,6 +50,30 @@ void for_rows(const Grid& grid, int extra, Body&& body) {
       body(1 + static_cast<int>(row % rows_y), 1 + static_cast<int>(row / rows_y));
     }
   });
+}
+
+/// How many planes of this many entries a thread should take at once: threads are not worth waking for less.
+inline std::size_t planes_per_chunk(std::ptrdiff_t entries) { return 1 + static_cast<std::size_t>(2048 / (entries + 1)); }
+
+/// Several sums over rows at once: term(j, k) returns an array. Added in the order of the rows whatever the number of threads.
+template <std::size_t count, class Term>
+std::array<double, count> row_sums(const Grid& grid, int extra, Term&& term) {
+  const std::size_t rows_y = static_cast<std::size_t>(grid.ny + extra), rows = rows_y * static_cast<std::size_t>(grid.nz + extra);
+  constexpr std::size_t chunk = 16;
+  std::vector<std::array<double, count>> partial((rows + chunk - 1) / chunk);
+  compute::for_chunks(rows, chunk, [&](std::size_t begin, std::size_t end) {
+    std::array<double, count> sum{};
+    for (std::size_t row = begin; row < end; ++row) {
+      const std::array<double, count> own = term(1 + static_cast<int>(row % rows_y), 1 + static_cast<int>(row / rows_y));
+      for (std::size_t s = 0; s < count; ++s) sum[s] += own[s];
+    }
+    partial[begin / chunk] = sum;
+  });
+  std::array<double, count> total{};
+  for (const auto& own : partial) {
+    for (std::size_t s = 0; s < count; ++s) total[s] += own[s];
+  }
+  return total;
 }
 
 /// Sum over rows of term(j, k), added in the order of the rows whatever the number of threads.

@@ -151,21 +151,20 @@ void set_group_donors(Fluid& fluid, double dt) {
       double* compression = fluid.own_compression.data() + fluid.groups.first[g];
       for (const double strain : strains) *compression++ -= dt * strain - change / state.volume;
     }
+    const int materials = (state.content.mass[0] > 0 ? 1 : 0) | (state.content.mass[1] > 0 ? 2 : 0);
     bool root = true;
     for (const auto& [c, parent] : members_of(fluid.groups, g)) {
-      double mixture = 0;
+      fluid.row_materials[static_cast<std::size_t>(c / fluid.grid.sy)] |= static_cast<unsigned char>(materials);
       for (int m = 0; m < 2; ++m) {
         const double energy = state.content.energy[m] - share[m] * work;
         const double own = state.content.volume[m] + share[m] * change;
         fluid.donor[m].mass[c] = state.content.mass[m] * inverse;
         fluid.donor[m].energy[c] = energy * inverse;
         fluid.donor[m].volume[c] = own * inverse;
-        mixture += fluid.donor[m].mass[c];
         // Only the sum over the group matters until it is spread again; the masses stay where they are.
         fluid.material[m].energy[c] = root ? energy : 0.0;
         fluid.material[m].volume[c] = root ? own : 0.0;
       }
-      fluid.donor_mass[c] = mixture;
       root = false;
     }
   }

@@ -31,16 +31,30 @@ void edge_forces(const double* __restrict u, const double* __restrict coefficien
   }
 }
 
-void row_force(Fluid& fluid, int j, int k, std::vector<double>& scratch) {
+/// Forces of one layer of cells on the nodes of the layers below and above it. A layer of nodes that another layer of
+/// cells has reached before is added to, else written.
+void layer_force(Fluid& fluid, int k, bool add_below, bool add_above) {
   const Grid& grid = fluid.grid;
-  const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz, width = grid.nx + 2;
-  double *lower = scratch.data(), *upper = scratch.data() + 4 * width;  // ends of rows stay 0
+  const std::ptrdiff_t sy = grid.sy, sz = grid.sz, width = grid.nx + 2;
+  thread_local std::vector<double> scratch;  // two rows of cells, each with lower and upper ends; ends of rows stay 0
   for (int axis = 0; axis < 3; ++axis) {
-    edge_forces(fluid.velocity[axis].data() + row, fluid.viscosity.data() + row, grid.nx, sy, sz, width, lower, upper);
-    for (int edge = 0; edge < 4; ++edge) {
-      double* __restrict force = fluid.force[axis].data() + row + (edge & 1 ? sy : 0) + (edge & 2 ? sz : 0);
-      const double *low = lower + edge * width, *up = upper + edge * width;
-      for (int i = 1; i <= grid.nx + 1; ++i) force[i] += low[i] + up[i - 1];
+    scratch.assign(16 * static_cast<std::size_t>(width), 0.0);
+    const auto lower_of = [&](int j) { return scratch.data() + 8 * width * (j % 2); };
+    for (int j = 1; j <= grid.ny + 1; ++j) {
+      const std::ptrdiff_t row = grid.at(0, j, k);
+      double *lower = lower_of(j), *upper = lower + 4 * width;
+      if (j <= grid.ny) edge_forces(fluid.velocity[axis].data() + row, fluid.viscosity.data() + row, grid.nx, sy, sz, width, lower, upper);
+      else std::fill_n(lower, 8 * width, 0.0);
+      const double *low = lower_of(j - 1) + width, *up = low + 4 * width;  // the edges at higher y of the row before
+      for (int above = 0; above < 2; ++above) {
+        double* __restrict force = fluid.force[axis].data() + row + above * sz;
+        const double *l = lower + 2 * above * width, *u = upper + 2 * above * width, *lb = low + 2 * above * width, *ub = up + 2 * above * width;
+        if (above ? add_above : add_below) {
+          for (int i = 1; i <= grid.nx + 1; ++i) force[i] += (l[i] + u[i - 1]) + (lb[i] + ub[i - 1]);
+        } else {
+          for (int i = 1; i <= grid.nx + 1; ++i) force[i] = (l[i] + u[i - 1]) + (lb[i] + ub[i - 1]);
+        }
+      }
     }
   }
 }
@@ -48,19 +62,13 @@ void row_force(Fluid& fluid, int j, int k, std::vector<double>& scratch) {
 }  // namespace
 
 void hourglass_force(Fluid& fluid) {
-  const Grid& grid = fluid.grid;
-  for (auto& force : fluid.force) {
-    double* f = force.data();
-    compute::for_chunks(force.size(), 1 << 15, [&](std::size_t begin, std::size_t end) { std::fill(f + begin, f + end, 0.0); });
-  }
   // Layers of cells write to the layers of nodes below and above: every other layer first, then those between.
+  const int nz = fluid.grid.nz;
   for (int colour = 0; colour < 2; ++colour) {
-    const std::size_t layers = static_cast<std::size_t>((grid.nz + 1 - colour) / 2);
-    compute::for_chunks(layers, 1, [&](std::size_t begin, std::size_t end) {
-      std::vector<double> scratch(8 * (static_cast<std::size_t>(grid.nx) + 2), 0.0);
-      for (std::size_t layer = begin; layer < end; ++layer) {
-        for (int j = 1; j <= grid.ny; ++j) row_force(fluid, j, 1 + colour + 2 * static_cast<int>(layer), scratch);
-      }
+    const std::size_t layers = static_cast<std::size_t>((nz + 1 - colour) / 2);
+    compute::for_chunks(layers, 1, [&](std::size_t layer, std::size_t) {
+      const int k = 1 + colour + 2 * static_cast<int>(layer);
+      layer_force(fluid, k, colour == 1, colour == 1 && k < nz);
     });
   }
 }

@@ -1,9 +1,10 @@
 // Momentum of nodes moves with the mass: the dual flux between two nodes is the mean of the face masses around the edge,
-// so the mass of a node stays an eighth of its cells'. Van Leer's limited slope away from walls, donor values near them.
+// so the mass of a node stays an eighth of its cells'. Limited slopes (van Leer 1977) away from walls, donor values near them.
 #include <algorithm>
 #include <cmath>
 
 #include "fluid_solver/phases.hpp"
+#include "fluid_solver/sweep.hpp"
 
 namespace polynya::fluid {
 namespace {
@@ -17,18 +18,20 @@ inline double dual_flux(const double* face_mass, std::ptrdiff_t n, std::ptrdiff_
 }
 
 inline double limited(double a, double b) {
-  const double product = a * b;
-  return product > 0 ? 2.0 * product / (a + b) : 0.0;
+  const double product = a * b, sum = a + b;
+  return product > 0 ? 2.0 * product / (product > 0 ? sum : 1.0) : 0.0;
 }
 
-/// Adds sign * (momentum carried over the edges from n+shift to n+shift+s) to `momentum` for n in 0..count.
+/// A row of edges from nodes n to nodes n + s.
 struct EdgeRow {
   const Fluid& fluid;
   std::ptrdiff_t row, s, t1, t2;
   int axis;
   bool at_lower_end, at_upper_end;  ///< the edge touches the outermost ghosts: no node beyond to take a slope from
 
-  void momentum(int first, int last, double* __restrict mx, double* __restrict my, double* __restrict mz) const {
+  /// Momentum that the edges carry; with `kinetic` also the kinetic energy.
+  template <bool kinetic>
+  void momentum(int first, int last, double* __restrict mx, double* __restrict my, double* __restrict mz, double* __restrict ke) const {
     const double* face_mass = fluid.face_mass[axis].data() + row;
     const double* b = fluid.node_fraction.data() + row;
     const double* mass = fluid.node_mass.data() + row;
@@ -38,19 +41,22 @@ struct EdgeRow {
     for (std::ptrdiff_t n = first; n <= last; ++n) {
       const double flux = dual_flux(face_mass, n, s, t1, t2);
       const bool forward = flux >= 0;
-      const bool smooth = b[n] >= whole && b[n + s] >= whole && (forward ? b[n + before] : b[n + beyond]) >= whole;
+      // Both sides are read whatever the direction, so that the loop needs no branch.
+      const double near = std::min(b[n], b[n + s]), lower = std::min(near, b[n + before]), upper = std::min(near, b[n + beyond]);
+      const bool smooth = (forward ? lower : upper) >= whole;
       const double donor_mass = forward ? mass[n] : mass[n + s];
-      const double courant = smooth ? std::abs(flux) / (donor_mass > 0 ? donor_mass : 1.0) : 1.0;
+      const double courant = std::abs(flux) / (donor_mass > 0 ? donor_mass : 1.0);
       const double reach = smooth ? 0.5 * (1.0 - std::min(courant, 1.0)) : 0.0;
       const auto value = [&](const double* f) {
-        const double middle = f[n + s] - f[n];
-        const double side = forward ? f[n] - f[n + before] : f[n + beyond] - f[n + s];
-        const double slope = reach * limited(middle, side);
-        return forward ? f[n] + slope : f[n + s] - slope;
+        const double own = f[n], other = f[n + s], middle = other - own, first = own - f[n + before], last = f[n + beyond] - other;
+        const double slope = reach * limited(middle, forward ? first : last);
+        return forward ? own + slope : other - slope;
       };
-      mx[n] = flux * value(u);
-      my[n] = flux * value(v);
-      mz[n] = flux * value(w);
+      const double x = value(u), y = value(v), z = value(w);
+      mx[n] = flux * x;
+      my[n] = flux * y;
+      mz[n] = flux * z;
+      if (kinetic) ke[n] = 0.5 * flux * (x * x + y * y + z * z);
     }
   }
 };
@@ -107,38 +113,133 @@ void iterate_donors(Fluid& fluid, std::vector<PassingNode>& passing) {
   }
 }
 
-void remap_row(Fluid& fluid, int j, int k, std::vector<double>& scratch) {
-  const Grid& grid = fluid.grid;
-  const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz;
-  const std::size_t width = static_cast<std::size_t>(grid.nx) + 3;
-  double* buffer[5][3];
-  for (int e = 0; e < 5; ++e) {
-    for (int d = 0; d < 3; ++d) buffer[e][d] = scratch.data() + width * static_cast<std::size_t>(3 * e + d);
+/// True if a row of nodes touches a row of cells that may hold a gas.
+bool touches_gas(const Fluid& fluid, int gases, int j, int k) {
+  return gases != 0 && (gases & (materials_around(fluid, std::min(j, fluid.grid.ny), std::min(k, fluid.grid.nz)) |
+                                 materials_around(fluid, std::max(j - 1, 1), std::max(k - 1, 1)))) != 0;
+}
+
+int gases_of(const Setup& setup) { return (is_gas(setup.law[0]) ? 1 : 0) | (is_gas(setup.law[1]) ? 2 : 0); }
+
+/// What a row of edges carries: momentum along x, y, z, and kinetic energy.
+struct Carried {
+  std::array<double*, 4> of{};
+};
+
+/// Rows of nodes in the order of their layers: what the edges towards higher y and z carry is kept for the next row and
+/// the next layer.
+class March {
+ public:
+  March(Fluid& fluid, int gases)
+      : fluid_(fluid), grid_(fluid.grid), gases_(gases), width_(static_cast<std::size_t>(grid_.nx) + 3),
+        storage_(scratch()) {
+    storage_.resize(4 * width_ * (static_cast<std::size_t>(grid_.ny) + 6));
   }
-  const EdgeRow along{fluid, row, 1, sy, sz, 0, false, false};
-  const EdgeRow below_y{fluid, row - sy, sy, 1, sz, 1, j == 1, false}, above_y{fluid, row, sy, 1, sz, 1, false, j == grid.ny + 1};
-  const EdgeRow below_z{fluid, row - sz, sz, 1, sy, 2, k == 1, false}, above_z{fluid, row, sz, 1, sy, 2, false, k == grid.nz + 1};
-  along.momentum(0, grid.nx + 1, buffer[0][0], buffer[0][1], buffer[0][2]);
-  below_y.momentum(1, grid.nx + 1, buffer[1][0], buffer[1][1], buffer[1][2]);
-  above_y.momentum(1, grid.nx + 1, buffer[2][0], buffer[2][1], buffer[2][2]);
-  below_z.momentum(1, grid.nx + 1, buffer[3][0], buffer[3][1], buffer[3][2]);
-  above_z.momentum(1, grid.nx + 1, buffer[4][0], buffer[4][1], buffer[4][2]);
-  const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
-  const double* old_mass = fluid.node_mass.data() + row;
-  double* __restrict new_mass = fluid.viscosity.data() + row;  // free until the next step
-  for (std::ptrdiff_t n = 1; n <= grid.nx + 1; ++n) {
-    const auto pair = [&](std::ptrdiff_t c) { return (m0[c] + m1[c]) + (m0[c - 1] + m1[c - 1]); };
-    new_mass[n] = 0.125 * ((pair(n) + pair(n - sy)) + (pair(n - sz) + pair(n - sy - sz)));
-  }
-  for (int d = 0; d < 3; ++d) {
-    const double* u = fluid.next_velocity[d].data() + row;
-    double* __restrict out = fluid.velocity[d].data() + row;
-    const double *x = buffer[0][d], *y0 = buffer[1][d], *y1 = buffer[2][d], *z0 = buffer[3][d], *z1 = buffer[4][d];
-    for (int n = 1; n <= grid.nx + 1; ++n) {
-      const double momentum = old_mass[n] * u[n] + ((x[n - 1] - x[n]) + (y0[n] - y1[n]) + (z0[n] - z1[n]));
-      out[n] = new_mass[n] > 0 ? momentum / (new_mass[n] > 0 ? new_mass[n] : 1.0) : u[n];
+
+  void run(int first, int last) {
+    for (int j = 1; j <= grid_.ny + 1; ++j) carry_z(j, first - 1, layer(j));
+    for (int k = first; k <= last; ++k) {
+      carry_y(0, k, slot(1));
+      for (int j = 1; j <= grid_.ny + 1; ++j) {
+        const std::ptrdiff_t row = grid_.at(0, j, k);
+        const Carried x = slot(0), y0 = slot(1 + (j + 1) % 2), y1 = slot(1 + j % 2), z0 = layer(j), z1 = slot(3);
+        carry({fluid_, row, 1, grid_.sy, grid_.sz, 0, false, false}, 0, gas(j, k), x);
+        carry_y(j, k, y1);
+        carry_z(j, k, z1);
+        update(row, gas(j, k), x, y0, y1, z0, z1);
+        for (std::size_t n = 0; n < 4 * width_; ++n) z0.of[0][n] = z1.of[0][n];
+      }
     }
   }
+
+ private:
+  /// Kept from step to step: allocating it anew costs as much as using it.
+  static std::vector<double>& scratch() {
+    thread_local std::vector<double> kept;
+    return kept;
+  }
+  Carried at(std::size_t place) {
+    double* start = storage_.data() + 4 * width_ * place;
+    return {{start, start + width_, start + 2 * width_, start + 3 * width_}};
+  }
+  Carried slot(int s) { return at(static_cast<std::size_t>(s)); }
+  Carried layer(int j) { return at(static_cast<std::size_t>(j) + 3); }
+  bool gas(int j, int k) const { return touches_gas(fluid_, gases_, std::clamp(j, 1, grid_.ny + 1), std::clamp(k, 1, grid_.nz + 1)); }
+
+  void carry(const EdgeRow& edges, int first, bool kinetic, const Carried& out) {
+    kinetic ? edges.momentum<true>(first, grid_.nx + 1, out.of[0], out.of[1], out.of[2], out.of[3])
+            : edges.momentum<false>(first, grid_.nx + 1, out.of[0], out.of[1], out.of[2], out.of[3]);
+  }
+  void carry_y(int j, int k, const Carried& out) {
+    carry({fluid_, grid_.at(0, j, k), grid_.sy, 1, grid_.sz, 1, j == 0, j == grid_.ny + 1}, 1, gas(j, k) || gas(j + 1, k), out);
+  }
+  void carry_z(int j, int k, const Carried& out) {
+    carry({fluid_, grid_.at(0, j, k), grid_.sz, 1, grid_.sy, 2, k == 0, k == grid_.nz + 1}, 1, gas(j, k) || gas(j, k + 1), out);
+  }
+
+  void update(std::ptrdiff_t row, bool kinetic, const Carried& x, const Carried& y0, const Carried& y1, const Carried& z0, const Carried& z1) {
+    const std::ptrdiff_t sy = grid_.sy, sz = grid_.sz;
+    const double *m0 = fluid_.material[0].mass.data() + row, *m1 = fluid_.material[1].mass.data() + row;
+    const double* old_mass = fluid_.node_mass.data() + row;
+    double* __restrict new_mass = fluid_.viscosity.data() + row;  // free until the next step
+    for (std::ptrdiff_t n = 1; n <= grid_.nx + 1; ++n) {
+      const auto pair = [&](std::ptrdiff_t c) { return (m0[c] + m1[c]) + (m0[c - 1] + m1[c - 1]); };
+      new_mass[n] = 0.125 * ((pair(n) + pair(n - sy)) + (pair(n - sz) + pair(n - sy - sz)));
+    }
+    const auto gained = [&](int d, int n) {
+      return (x.of[d][n - 1] - x.of[d][n]) + (y0.of[d][n] - y1.of[d][n]) + (z0.of[d][n] - z1.of[d][n]);
+    };
+    const double *u = fluid_.next_velocity[0].data() + row, *v = fluid_.next_velocity[1].data() + row, *w = fluid_.next_velocity[2].data() + row;
+    double* __restrict un = fluid_.velocity[0].data() + row;
+    double* __restrict vn = fluid_.velocity[1].data() + row;
+    double* __restrict wn = fluid_.velocity[2].data() + row;
+    for (int n = 1; n <= grid_.nx + 1; ++n) {
+      const bool filled = new_mass[n] > 0;
+      const double inverse = 1.0 / (filled ? new_mass[n] : 1.0);
+      un[n] = filled ? inverse * (old_mass[n] * u[n] + gained(0, n)) : u[n];
+      vn[n] = filled ? inverse * (old_mass[n] * v[n] + gained(1, n)) : v[n];
+      wn[n] = filled ? inverse * (old_mass[n] * w[n] + gained(2, n)) : w[n];
+    }
+    if (!kinetic) return;
+    double* __restrict loss = fluid_.force[0].data() + row;  // free until the next step
+    const auto square = [row](const std::array<std::vector<double>, 3>& u, std::ptrdiff_t n) {
+      return u[0][row + n] * u[0][row + n] + u[1][row + n] * u[1][row + n] + u[2][row + n] * u[2][row + n];
+    };
+    for (int n = 1; n <= grid_.nx + 1; ++n) {
+      const double lost = 0.5 * (old_mass[n] * square(fluid_.next_velocity, n) - new_mass[n] * square(fluid_.velocity, n)) + gained(3, n);
+      loss[n] = fluid_.node_fraction[row + n] >= 1.0 && new_mass[n] > 0 ? lost / (new_mass[n] > 0 ? new_mass[n] : 1.0) : 0.0;
+    }
+  }
+
+  Fluid& fluid_;
+  const Grid& grid_;
+  int gases_;
+  std::size_t width_;
+  std::vector<double>& storage_;
+};
+
+/// Gives cells the kinetic energy that mixing of momentum has cost at their nodes, by mass, as far as they hold gas: shocks
+/// need it. Water would answer a few joules with bars, so there the account keeps it. Returns what was given, J.
+double heat_gas(Fluid& fluid, int gases) {
+  const Grid& grid = fluid.grid;
+  const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
+  return row_sum(grid, 0, [&](int j, int k) {
+    const int heated = gases & materials_around(fluid, j, k);
+    double given = 0;
+    for (int m = 0; m < 2; ++m) {
+      if (!(heated >> m & 1)) continue;
+      const std::ptrdiff_t row = grid.at(0, j, k);
+      const double *loss = fluid.force[0].data() + row, *mass = fluid.material[m].mass.data() + row;
+      double* __restrict energy = fluid.material[m].energy.data() + row;
+      for (std::ptrdiff_t i = 1; i <= grid.nx; ++i) {
+        const auto four = [loss, sy, sz](std::ptrdiff_t n) { return (loss[n] + loss[n + sy]) + (loss[n + sz] + loss[n + sy + sz]); };
+        const double heat = 0.125 * mass[i] * (four(i) + four(i + 1));
+        energy[i] += heat;
+        given += heat;
+      }
+    }
+    return given;
+  });
 }
 
 }  // namespace
@@ -147,12 +248,10 @@ void remap_momentum(Fluid& fluid) {
   std::vector<PassingNode> passing = passing_nodes(fluid);
   iterate_donors(fluid, passing);
   const Grid& grid = fluid.grid;
-  const std::size_t rows_y = static_cast<std::size_t>(grid.ny) + 1, rows_z = static_cast<std::size_t>(grid.nz) + 1;
-  compute::for_chunks(rows_y * rows_z, 16, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> scratch(15 * (static_cast<std::size_t>(grid.nx) + 3));
-    for (std::size_t row = begin; row < end; ++row) {
-      remap_row(fluid, 1 + static_cast<int>(row % rows_y), 1 + static_cast<int>(row / rows_y), scratch);
-    }
+  const int gases = gases_of(fluid.setup);
+  const std::size_t layers = static_cast<std::size_t>(grid.nz) + 1;
+  compute::for_chunks(layers, std::max(planes_per_chunk(grid.sz), layers / 16), [&](std::size_t begin, std::size_t end) {
+    March(fluid, gases).run(static_cast<int>(begin) + 1, static_cast<int>(end));
   });
   // The rows above took the donor velocity of passing nodes for their own.
   for (const PassingNode& p : passing) {
@@ -161,6 +260,7 @@ void remap_momentum(Fluid& fluid) {
     for (int d = 0; d < 3; ++d) fluid.velocity[d][p.node] += fluid.node_mass[p.node] * (p.own[d] - p.donor[d]) / mass;
   }
   std::swap(fluid.node_mass, fluid.viscosity);
+  if (gases) fluid.account.remap_loss -= heat_gas(fluid, gases);
 }
 
 }  // namespace polynya::fluid

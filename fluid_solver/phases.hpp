@@ -5,9 +5,6 @@
 /// The phases of a step, in the order of step.cpp. Each lives in the file named after it.
 namespace polynya::fluid {
 
-/// Coefficient of the shock viscosity that is linear in the closing speed, at the present time.
-double linear_viscosity(const Fluid& fluid);
-
 /// cell_states.cpp: pressure, density, stiffness from masses, energies and the free volumes given; mixed cells are
 /// brought to pressure equilibrium.
 void evaluate_cells(Fluid& fluid, const std::vector<double>& volume);
@@ -15,7 +12,7 @@ void evaluate_cells(Fluid& fluid, const std::vector<double>& volume);
 /// group_state.cpp: one state per group at the start, and the predicted pressure inside groups.
 void evaluate_groups(Fluid& fluid);
 void predict_group_pressure(Fluid& fluid, double dt);
-/// Replaces the donor values of member cells by those of their group.
+/// Takes the donor values of member cells from their group.
 void set_group_donors(Fluid& fluid, double dt);
 /// Spreads each group's content evenly over its new volume; the mass moved is added to the face masses.
 void mix_groups(Fluid& fluid);
@@ -38,18 +35,25 @@ void set_boundary_pressure(Fluid& fluid);
 void start_far_field(Fluid& fluid, const std::array<double, 3>& centre);
 void advance_far_field(Fluid& fluid, double dt);
 void book_boundary(Fluid& fluid, double dt, const std::vector<StepWall>& walls);
-void book_boundary_flow(Fluid& fluid, double dt);
+void book_boundary_flow(Fluid& fluid);
 void copy_face_mass_to_ghosts(Fluid& fluid);
 void copy_velocity_to_ghosts(Fluid& fluid);
 void close_wall_nodes(Fluid& fluid);
 /// Repeats the pressure of the outermost cells in the ghosts.
 void mirror_pressure(Fluid& fluid);
 
+/// predicted_pressure.cpp
+void predict_pressure(Fluid& fluid, double dt);
+/// Coefficient of the shock viscosity that is linear in the closing speed beside solids, at the present time.
+double linear_viscosity(const Fluid& fluid);
+
 /// lagrange_step.cpp
 void face_rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity, std::array<std::vector<double>, 3>& rate);
-void predict_pressure(Fluid& fluid, double dt);
-void accelerate_nodes(Fluid& fluid, double dt);
-void work_and_donors(Fluid& fluid, double dt);
+/// Returns the kinetic energy of the new velocities, J.
+double accelerate_nodes(Fluid& fluid, double dt);
+void work_and_volumes(Fluid& fluid, double dt);
+/// Lists the cells that solids cut and members of groups, and what they will give in the remap.
+void hold_cut_cells(Fluid& fluid);
 /// wall_account.cpp
 void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls, const VolumeCorrection& correction);
 
@@ -57,7 +61,6 @@ void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls, con
 void mean_face_rates(Fluid& fluid);
 
 /// fluid.cpp
-double kinetic_energy(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity);
 void update_node_mass(Fluid& fluid);
 
 /// hourglass.cpp

@@ -174,6 +174,7 @@ double sound_speed(const MaterialCard& card, double pressure) {
   if (card.law == "linear_polynomial" && card.value("c1") == 0)
     return std::sqrt((1 + card.value("c4")) * pressure / density);
   if (card.law == "linear_polynomial") return std::sqrt(card.value("c1") / density);
+  if (card.law == "tait") return std::sqrt(card.value("exponent") * card.value("stiffness") / density);
   const double stiffening = card.law == "stiffened_gas" ? card.value("stiffening_pressure") : 0;
   return std::sqrt(card.value("ratio_of_specific_heats") * (pressure + stiffening) / density);
 }

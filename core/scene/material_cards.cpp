@@ -50,6 +50,9 @@ const std::map<std::string, std::vector<LawValue>>& laws() {
        {positive("density", dim::density),
         {"ratio_of_specific_heats", dim::none, 1, true},
         not_negative("stiffening_pressure", dim::pressure)}},
+      {"tait",
+       {positive("density", dim::density), not_negative("reference_pressure", dim::pressure), positive("stiffness", dim::pressure),
+        positive("exponent")}},
   };
   return table;
 }

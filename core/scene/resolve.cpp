@@ -44,12 +44,12 @@ struct MaterialUse {
 };
 
 std::vector<MaterialUse> material_uses(const Values& values) {
-  const std::vector<std::string> fluids{"mie_grueneisen", "linear_polynomial", "ideal_gas", "stiffened_gas"};
+  const std::vector<std::string> fluids{"mie_grueneisen", "linear_polynomial", "ideal_gas", "stiffened_gas", "tait"};
   if (values.has("tube")) return {{"tube.left.material", fluids}, {"tube.right.material", fluids}};
   std::vector<MaterialUse> uses;
   if (values.has("vehicle")) uses.push_back({"vehicle.material", {"elastic"}});
   if (values.has("ice")) uses.push_back({"ice.material", {"johnson_holmquist_2", "elastic"}});
-  if (values.has("water")) uses.push_back({"water.material", {"mie_grueneisen", "stiffened_gas"}});
+  if (values.has("water")) uses.push_back({"water.material", {"mie_grueneisen", "stiffened_gas", "tait"}});
   if (values.has("air")) uses.push_back({"air.material", {"linear_polynomial", "ideal_gas"}});
   return uses;
 }

@@ -19,7 +19,7 @@ double numerical_slope(const EquationOfState& law, double rho, double e, bool by
 TEST(EquationOfState, DerivativesAreThoseOfThePressure) {
   const std::vector<std::tuple<EquationOfState, double, double>> points{
       {MieGrueneisen{}, 1100.0, 1e4}, {MieGrueneisen{}, 970.0, 2e3}, {MieGrueneisen{1000, 1484, 1.979, 0, 0, 0.11, 0.7}, 1050.0, 5e4},
-      {LinearPolynomial{1.2, 10, 20, 30, 40, 0.4, 0.3, 0.2}, 2.0, 2e5}, {IdealGas{1.4}, 3.0, 1e5}, {StiffenedGas{4.4, 6e8}, 1000.0, 8e5}};
+      {LinearPolynomial{1.2, 10, 20, 30, 40, 0.4, 0.3, 0.2}, 2.0, 2e5}, {IdealGas{1.4}, 3.0, 1e5}, {StiffenedGas{4.4, 6e8}, 1000.0, 8e5}, {Tait{}, 1020.0, 0.0}};
   for (const auto& [law, rho, e] : points) {
     const Response r = respond(law, rho, e);
     EXPECT_NEAR(r.by_density, numerical_slope(law, rho, e, true), 2e-5 * std::abs(r.by_density)) << law.index();
@@ -33,6 +33,11 @@ TEST(EquationOfState, WaterHasItsSoundSpeedAndItsHugoniotSlope) {
   // Without Grueneisen coefficient the pressure is that of the Hugoniot us = c + s up.
   const double particle = 200, shock = 1480 + 1.8 * particle, rho = 1000 * shock / (shock - particle);
   EXPECT_NEAR(law(rho, 0).pressure, 1000 * shock * particle, 1e-6 * 1000 * shock * particle);
+}
+
+TEST(EquationOfState, TaitWaterHasTheSoundSpeedOfItsStiffness) {
+  EXPECT_NEAR(std::sqrt(bulk_modulus(1000, Tait{}(1000, 5e4)) / 1000), std::sqrt(7.15 * 3.31e8 / 1000), 1e-9);
+  EXPECT_NEAR(Tait{}(density_at(Tait{}, 4e7, 0, 1000), 0).pressure, 4e7, 1e-5);
 }
 
 TEST(EquationOfState, AirOfTheCardIsAnIdealGas) {
