@@ -201,15 +201,18 @@ bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTo
     const Vector3 stretch = p - point_on(corners_of(surface, anchored), state.anchor_weights);
     const Vector3 normal = face_normal(surface, anchored);
     touch.slip = tangential(stretch, touch.push);
-    touch.turned = anchored != triangle && dot(normal, face_normal(surface, triangle)) < 1 - 1e-12;
+    touch.turned = anchored != triangle && state.on_face && foot.feature == Feature::face &&
+                   dot(normal, face_normal(surface, triangle)) < 1 - 1e-12;
     if (touch.turned) {
-      // A spring set on a face that the point has left is stretched along that face and turns with the force: seen along
-      // the new one, the depth times the angle between them would count as slip although nothing moved.
+      // From face to face the force turns at once, around an edge with the point. A spring set on a face that the point
+      // has left is stretched along that face and turns with the force: seen along the new one, the depth times the
+      // angle between them would count as slip although nothing moved.
       const Vector3 along = tangential(stretch, normal);
       touch.slip = tangential(along, touch.push);
       if (const double length = norm(touch.slip); length > 0) touch.slip = (norm(along) / length) * touch.slip;
     }
   }
+  state.on_face = foot.feature == Feature::face;
   touch.state = &state;
   return true;
 }

@@ -11,6 +11,7 @@ struct PairState {
   std::int32_t feature = -1;   ///< triangle (or edge) of the surface that holds the point; -1: free
   bool born = false;           ///< the law has not seen it yet
   bool inside = false;         ///< the point itself was behind the surface
+  bool on_face = false;        ///< its foot was within a triangle, not on an edge
   bool accepted = false;       ///< found inside without having come through the surface
   double stiffness = 0;        ///< N/m
   double offset = 0;           ///< m, depth that exerts no force
