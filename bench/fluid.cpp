@@ -10,8 +10,8 @@ namespace {
 
 constexpr int cells = 128;
 
-/// Water under a wavy surface at two thirds of a cube, air above, everything in motion; open boundaries. About 1.2 % of the
-/// cells hold both.
+/// Water under a wavy surface at two thirds of a cube, air above, everything in motion; open boundaries. About 1.2 % of
+/// the cells hold both.
 std::unique_ptr<fluid::Fluid> basin() {
   std::vector<double> line;
   for (int i = 0; i <= cells; ++i) line.push_back(0.1 * i / cells);
@@ -20,7 +20,8 @@ std::unique_ptr<fluid::Fluid> basin() {
   setup.boundary.fill(fluid::Boundary::non_reflecting);
   auto basin = std::make_unique<fluid::Fluid>(fluid::Grid(line, line, line), setup);
   const fluid::Grid& grid = basin->grid;
-  const double water = fluid::density_at(setup.law[0], 101325, 0, 1000), heat = fluid::energy_at(setup.law[1], 1.2, 101325);
+  const double water = fluid::density_at(setup.law[0], 101325, 0, 1000),
+               heat = fluid::energy_at(setup.law[1], 1.2, 101325);
   fill(*basin, {}, [&](int i, int j, int k) {
     const double surface = 0.0667 + 0.006 * (std::sin(6.2832 * i / cells) + std::sin(6.2832 * j / cells));
     fluid::CellState state;

@@ -10,9 +10,10 @@ namespace polynya::fluid {
 namespace {
 
 template <class Law>
-void evaluate_row(const Law& law, double floor, double void_pressure, std::ptrdiff_t begin, std::ptrdiff_t end, const double* __restrict mass,
-                  const double* __restrict energy, const double* __restrict volume, double* __restrict pressure,
-                  double* __restrict bulk_modulus_out, double* __restrict density, double* __restrict sound_speed) {
+void evaluate_row(const Law& law, double floor, double void_pressure, std::ptrdiff_t begin, std::ptrdiff_t end,
+                  const double* __restrict mass, const double* __restrict energy, const double* __restrict volume,
+                  double* __restrict pressure, double* __restrict bulk_modulus_out, double* __restrict density,
+                  double* __restrict sound_speed) {
   for (std::ptrdiff_t c = begin; c < end; ++c) {
     const bool filled = mass[c] > void_density * volume[c] && volume[c] > 0;
     const double m = filled ? mass[c] : 1.0, e = filled ? energy[c] : 0.0, v = filled ? volume[c] : 1.0;
@@ -53,12 +54,13 @@ void evaluate_mixed_cell(Fluid& fluid, std::ptrdiff_t c, double volume) {
 }
 
 /// A run of cells that hold material m alone.
-void evaluate_pure_cells(Fluid& fluid, int m, std::ptrdiff_t begin, std::ptrdiff_t end, const std::vector<double>& volume) {
+void evaluate_pure_cells(Fluid& fluid, int m, std::ptrdiff_t begin, std::ptrdiff_t end,
+                         const std::vector<double>& volume) {
   std::visit(
       [&](const auto& law) {
-        evaluate_row(law, fluid.setup.pressure_floor[m], fluid.setup.pressure_floor[water], begin, end, fluid.material[m].mass.data(),
-                     fluid.material[m].energy.data(), volume.data(), fluid.pressure.data(), fluid.bulk_modulus.data(),
-                     fluid.density.data(), fluid.sound_speed.data());
+        evaluate_row(law, fluid.setup.pressure_floor[m], fluid.setup.pressure_floor[water], begin, end,
+                     fluid.material[m].mass.data(), fluid.material[m].energy.data(), volume.data(),
+                     fluid.pressure.data(), fluid.bulk_modulus.data(), fluid.density.data(), fluid.sound_speed.data());
       },
       fluid.setup.law[m]);
   for (std::ptrdiff_t c = begin; c < end; ++c) {

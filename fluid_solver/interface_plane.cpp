@@ -26,7 +26,9 @@ Standard standard(const std::array<double, 3>& normal) {
   return s;
 }
 
-double square(double x) { return x * x; }
+double square(double x) {
+  return x * x;
+}
 
 /// Value and slope.
 struct Curve {
@@ -59,8 +61,10 @@ double lower_offset(const std::array<double, 3>& m, double v) {
   if (!(v > 0)) return 0;
   const auto [m1, m2, m3] = m;
   double low = 0, high = 0.5, a = 0;
-  if (6.0 * m2 * m3 * v < square(m1)) a = std::cbrt(6.0 * m1 * m2 * m3 * v);
-  else a = std::min({0.5, m3 * v + 0.5 * (m1 + m2), 0.5 * (m1 + std::sqrt(8.0 * m2 * m3 * v))});
+  if (6.0 * m2 * m3 * v < square(m1))
+    a = std::cbrt(6.0 * m1 * m2 * m3 * v);
+  else
+    a = std::min({0.5, m3 * v + 0.5 * (m1 + m2), 0.5 * (m1 + std::sqrt(8.0 * m2 * m3 * v))});
   for (int iteration = 0; iteration < 60; ++iteration) {
     const Curve here = lower_volume(m, a);
     const double miss = here.value - v;
@@ -81,7 +85,9 @@ double below(const Standard& s, double offset) {
 
 }  // namespace
 
-double fraction_below(const InterfacePlane& plane) { return below(standard(plane.normal), plane.offset); }
+double fraction_below(const InterfacePlane& plane) {
+  return below(standard(plane.normal), plane.offset);
+}
 
 double offset_for(const std::array<double, 3>& normal, double fraction) {
   const Standard s = standard(normal);
@@ -100,10 +106,14 @@ namespace {
 
 using Widths = std::array<std::array<double, 3>, 3>;
 
-constexpr int stride(int axis) { return axis == 0 ? 1 : axis == 1 ? 3 : 9; }
+constexpr int stride(int axis) {
+  return axis == 0 ? 1 : axis == 1 ? 3 : 9;
+}
 constexpr int centre = 13;
 
-double span(const Widths& width, int axis) { return width[axis][1] + 0.5 * (width[axis][0] + width[axis][2]); }
+double span(const Widths& width, int axis) {
+  return width[axis][1] + 0.5 * (width[axis][0] + width[axis][2]);
+}
 
 /// Gradient of the fraction by Youngs' weights 1, 2, 1 across.
 std::array<double, 3> youngs(const std::array<double, 27>& f, const Widths& width) {
@@ -125,7 +135,9 @@ std::array<double, 3> youngs(const std::array<double, 27>& f, const Widths& widt
 /// Gradient direction if the interface is a height over the plane across `axis`: central differences of column heights.
 std::array<double, 3> of_heights(const std::array<double, 27>& f, const Widths& width, int axis) {
   const int s = stride(axis), t1 = stride((axis + 1) % 3), t2 = stride((axis + 2) % 3);
-  const auto height = [&](int c) { return f[c - s] * width[axis][0] + f[c] * width[axis][1] + f[c + s] * width[axis][2]; };
+  const auto height = [&](int c) {
+    return f[c - s] * width[axis][0] + f[c] * width[axis][1] + f[c + s] * width[axis][2];
+  };
   const auto layer = [&](int c) { return f[c] + f[c + t1] + f[c - t1] + f[c + t2] + f[c - t2]; };
   std::array<double, 3> gradient{};
   gradient[axis] = layer(centre + s) >= layer(centre - s) ? 1.0 : -1.0;

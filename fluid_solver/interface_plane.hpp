@@ -20,8 +20,9 @@ double offset_for(const std::array<double, 3>& normal, double fraction);
 double fraction_of_slab(const InterfacePlane& plane, int axis, bool upper, double part);
 
 /// Normal from the fractions of the first material in a cell and its 26 neighbours (by i + 3 j + 9 k), out of that
-/// material, in units of the cell's widths (w_x n_x, ...): the mixed scheme of Aulisa et al. 2007, J. Comput. Phys. 225:2301.
-/// `width` are those of the three cells along each axis. Zero where the fractions have no gradient.
-std::array<double, 3> interface_normal(const std::array<double, 27>& fraction, const std::array<std::array<double, 3>, 3>& width);
+/// material, in units of the cell's widths (w_x n_x, ...): the mixed scheme of Aulisa et al. 2007, J. Comput. Phys.
+/// 225:2301. `width` are those of the three cells along each axis. Zero where the fractions have no gradient.
+std::array<double, 3> interface_normal(const std::array<double, 27>& fraction,
+                                       const std::array<std::array<double, 3>, 3>& width);
 
 }  // namespace polynya::fluid

@@ -47,7 +47,9 @@ SharedCell lay_plane(const Fluid& fluid, std::ptrdiff_t c) {
     }
   }
   part[13] = own;
-  const auto widths = [](const std::vector<double>& w, int n) { return std::array<double, 3>{w[n - 1], w[n], w[n + 1]}; };
+  const auto widths = [](const std::vector<double>& w, int n) {
+    return std::array<double, 3>{w[n - 1], w[n], w[n + 1]};
+  };
   cell.plane.normal = interface_normal(part, {widths(grid.dx, i), widths(grid.dy, j), widths(grid.dz, k)});
   const auto& n = cell.plane.normal;
   if (n[0] == 0 && n[1] == 0 && n[2] == 0) cell.plane.normal = {0, 0, 1};  // an island without a side: water lies below
@@ -74,9 +76,11 @@ void find_shared_cells(Fluid& fluid, SharedCells& cells) {
       }
     }
   };
-  compute::for_chunks(static_cast<std::size_t>(grid.nz), planes_per_chunk(grid.sz), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t layer = begin; layer < end; ++layer) find_in_layer(static_cast<int>(layer) + 1);
-  });
+  compute::for_chunks(static_cast<std::size_t>(grid.nz), planes_per_chunk(grid.sz),
+                      [&](std::size_t begin, std::size_t end) {
+                        for (std::size_t layer = begin; layer < end; ++layer)
+                          find_in_layer(static_cast<int>(layer) + 1);
+                      });
 }
 
 void forget_shared_cells(Fluid& fluid) {

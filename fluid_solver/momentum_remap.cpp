@@ -1,5 +1,6 @@
-// Momentum of nodes moves with the mass: the dual flux between two nodes is the mean of the face masses around the edge,
-// so the mass of a node stays an eighth of its cells'. Limited slopes (van Leer 1977) away from walls, donor values near them.
+// Momentum of nodes moves with the mass: the dual flux between two nodes is the mean of the face masses around the
+// edge, so the mass of a node stays an eighth of its cells'. Limited slopes (van Leer 1977) away from walls, donor
+// values near them.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +13,8 @@ namespace {
 constexpr double whole = 0.5;  ///< node fraction from which the slope is trusted
 
 /// Mass from node n to node n + s (axis stride s; t1, t2 the other strides).
-inline double dual_flux(const double* face_mass, std::ptrdiff_t n, std::ptrdiff_t s, std::ptrdiff_t t1, std::ptrdiff_t t2) {
+inline double dual_flux(const double* face_mass, std::ptrdiff_t n, std::ptrdiff_t s, std::ptrdiff_t t1,
+                        std::ptrdiff_t t2) {
   const auto through = [&](std::ptrdiff_t c) { return face_mass[c] + face_mass[c + s]; };
   return 0.125 * ((through(n) + through(n - t1)) + (through(n - t2) + through(n - t1 - t2)));
 }
@@ -31,7 +33,8 @@ struct EdgeRow {
 
   /// Momentum that the edges carry; with `kinetic` also the kinetic energy.
   template <bool kinetic>
-  void momentum(int first, int last, double* __restrict mx, double* __restrict my, double* __restrict mz, double* __restrict ke) const {
+  void momentum(int first, int last, double* __restrict mx, double* __restrict my, double* __restrict mz,
+                double* __restrict ke) const {
     const double* face_mass = fluid.face_mass[axis].data() + row;
     const double* b = fluid.node_fraction.data() + row;
     const double* mass = fluid.node_mass.data() + row;
@@ -42,13 +45,15 @@ struct EdgeRow {
       const double flux = dual_flux(face_mass, n, s, t1, t2);
       const bool forward = flux >= 0;
       // Both sides are read whatever the direction, so that the loop needs no branch.
-      const double near = std::min(b[n], b[n + s]), lower = std::min(near, b[n + before]), upper = std::min(near, b[n + beyond]);
+      const double near = std::min(b[n], b[n + s]), lower = std::min(near, b[n + before]),
+                   upper = std::min(near, b[n + beyond]);
       const bool smooth = (forward ? lower : upper) >= whole;
       const double donor_mass = forward ? mass[n] : mass[n + s];
       const double courant = std::abs(flux) / (donor_mass > 0 ? donor_mass : 1.0);
       const double reach = smooth ? 0.5 * (1.0 - std::min(courant, 1.0)) : 0.0;
       const auto value = [&](const double* f) {
-        const double own = f[n], other = f[n + s], middle = other - own, first = own - f[n + before], last = f[n + beyond] - other;
+        const double own = f[n], other = f[n + s], middle = other - own, first = own - f[n + before],
+                     last = f[n + beyond] - other;
         const double slope = reach * limited(middle, forward ? first : last);
         return forward ? own + slope : other - slope;
       };
@@ -119,7 +124,9 @@ bool touches_gas(const Fluid& fluid, int gases, int j, int k) {
                                  materials_around(fluid, std::max(j - 1, 1), std::max(k - 1, 1)))) != 0;
 }
 
-int gases_of(const Setup& setup) { return (is_gas(setup.law[0]) ? 1 : 0) | (is_gas(setup.law[1]) ? 2 : 0); }
+int gases_of(const Setup& setup) {
+  return (is_gas(setup.law[0]) ? 1 : 0) | (is_gas(setup.law[1]) ? 2 : 0);
+}
 
 /// What a row of edges carries: momentum along x, y, z, and kinetic energy.
 struct Carried {
@@ -131,7 +138,10 @@ struct Carried {
 class March {
  public:
   March(Fluid& fluid, int gases)
-      : fluid_(fluid), grid_(fluid.grid), gases_(gases), width_(static_cast<std::size_t>(grid_.nx) + 3),
+      : fluid_(fluid),
+        grid_(fluid.grid),
+        gases_(gases),
+        width_(static_cast<std::size_t>(grid_.nx) + 3),
         storage_(scratch()) {
     storage_.resize(4 * width_ * (static_cast<std::size_t>(grid_.ny) + 6));
   }
@@ -164,20 +174,25 @@ class March {
   }
   Carried slot(int s) { return at(static_cast<std::size_t>(s)); }
   Carried layer(int j) { return at(static_cast<std::size_t>(j) + 3); }
-  bool gas(int j, int k) const { return touches_gas(fluid_, gases_, std::clamp(j, 1, grid_.ny + 1), std::clamp(k, 1, grid_.nz + 1)); }
+  bool gas(int j, int k) const {
+    return touches_gas(fluid_, gases_, std::clamp(j, 1, grid_.ny + 1), std::clamp(k, 1, grid_.nz + 1));
+  }
 
   void carry(const EdgeRow& edges, int first, bool kinetic, const Carried& out) {
     kinetic ? edges.momentum<true>(first, grid_.nx + 1, out.of[0], out.of[1], out.of[2], out.of[3])
             : edges.momentum<false>(first, grid_.nx + 1, out.of[0], out.of[1], out.of[2], out.of[3]);
   }
   void carry_y(int j, int k, const Carried& out) {
-    carry({fluid_, grid_.at(0, j, k), grid_.sy, 1, grid_.sz, 1, j == 0, j == grid_.ny + 1}, 1, gas(j, k) || gas(j + 1, k), out);
+    carry({fluid_, grid_.at(0, j, k), grid_.sy, 1, grid_.sz, 1, j == 0, j == grid_.ny + 1}, 1,
+          gas(j, k) || gas(j + 1, k), out);
   }
   void carry_z(int j, int k, const Carried& out) {
-    carry({fluid_, grid_.at(0, j, k), grid_.sz, 1, grid_.sy, 2, k == 0, k == grid_.nz + 1}, 1, gas(j, k) || gas(j, k + 1), out);
+    carry({fluid_, grid_.at(0, j, k), grid_.sz, 1, grid_.sy, 2, k == 0, k == grid_.nz + 1}, 1,
+          gas(j, k) || gas(j, k + 1), out);
   }
 
-  void update(std::ptrdiff_t row, bool kinetic, const Carried& x, const Carried& y0, const Carried& y1, const Carried& z0, const Carried& z1) {
+  void update(std::ptrdiff_t row, bool kinetic, const Carried& x, const Carried& y0, const Carried& y1,
+              const Carried& z0, const Carried& z1) {
     const std::ptrdiff_t sy = grid_.sy, sz = grid_.sz;
     const double *m0 = fluid_.material[0].mass.data() + row, *m1 = fluid_.material[1].mass.data() + row;
     const double* old_mass = fluid_.node_mass.data() + row;
@@ -189,7 +204,8 @@ class March {
     const auto gained = [&](int d, int n) {
       return (x.of[d][n - 1] - x.of[d][n]) + (y0.of[d][n] - y1.of[d][n]) + (z0.of[d][n] - z1.of[d][n]);
     };
-    const double *u = fluid_.next_velocity[0].data() + row, *v = fluid_.next_velocity[1].data() + row, *w = fluid_.next_velocity[2].data() + row;
+    const double *u = fluid_.next_velocity[0].data() + row, *v = fluid_.next_velocity[1].data() + row,
+                 *w = fluid_.next_velocity[2].data() + row;
     double* __restrict un = fluid_.velocity[0].data() + row;
     double* __restrict vn = fluid_.velocity[1].data() + row;
     double* __restrict wn = fluid_.velocity[2].data() + row;
@@ -206,8 +222,11 @@ class March {
       return u[0][row + n] * u[0][row + n] + u[1][row + n] * u[1][row + n] + u[2][row + n] * u[2][row + n];
     };
     for (int n = 1; n <= grid_.nx + 1; ++n) {
-      const double lost = 0.5 * (old_mass[n] * square(fluid_.next_velocity, n) - new_mass[n] * square(fluid_.velocity, n)) + gained(3, n);
-      loss[n] = fluid_.node_fraction[row + n] >= 1.0 && new_mass[n] > 0 ? lost / (new_mass[n] > 0 ? new_mass[n] : 1.0) : 0.0;
+      const double lost =
+          0.5 * (old_mass[n] * square(fluid_.next_velocity, n) - new_mass[n] * square(fluid_.velocity, n)) +
+          gained(3, n);
+      loss[n] =
+          fluid_.node_fraction[row + n] >= 1.0 && new_mass[n] > 0 ? lost / (new_mass[n] > 0 ? new_mass[n] : 1.0) : 0.0;
     }
   }
 
@@ -218,8 +237,8 @@ class March {
   std::vector<double>& storage_;
 };
 
-/// Gives cells the kinetic energy that mixing of momentum has cost at their nodes, by mass, as far as they hold gas: shocks
-/// need it. Water would answer a few joules with bars, so there the account keeps it. Returns what was given, J.
+/// Gives cells the kinetic energy that mixing of momentum has cost at their nodes, by mass, as far as they hold gas:
+/// shocks need it. Water would answer a few joules with bars, so there the account keeps it. Returns what was given, J.
 double heat_gas(Fluid& fluid, int gases) {
   const Grid& grid = fluid.grid;
   const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
@@ -232,7 +251,9 @@ double heat_gas(Fluid& fluid, int gases) {
       const double *loss = fluid.force[0].data() + row, *mass = fluid.material[m].mass.data() + row;
       double* __restrict energy = fluid.material[m].energy.data() + row;
       for (std::ptrdiff_t i = 1; i <= grid.nx; ++i) {
-        const auto four = [loss, sy, sz](std::ptrdiff_t n) { return (loss[n] + loss[n + sy]) + (loss[n + sz] + loss[n + sy + sz]); };
+        const auto four = [loss, sy, sz](std::ptrdiff_t n) {
+          return (loss[n] + loss[n + sy]) + (loss[n + sz] + loss[n + sy + sz]);
+        };
         const double heat = 0.125 * mass[i] * (four(i) + four(i + 1));
         energy[i] += heat;
         given += heat;
@@ -250,9 +271,10 @@ void remap_momentum(Fluid& fluid) {
   const Grid& grid = fluid.grid;
   const int gases = gases_of(fluid.setup);
   const std::size_t layers = static_cast<std::size_t>(grid.nz) + 1;
-  compute::for_chunks(layers, std::max(planes_per_chunk(grid.sz), layers / 16), [&](std::size_t begin, std::size_t end) {
-    March(fluid, gases).run(static_cast<int>(begin) + 1, static_cast<int>(end));
-  });
+  compute::for_chunks(layers, std::max(planes_per_chunk(grid.sz), layers / 16),
+                      [&](std::size_t begin, std::size_t end) {
+                        March(fluid, gases).run(static_cast<int>(begin) + 1, static_cast<int>(end));
+                      });
   // The rows above took the donor velocity of passing nodes for their own.
   for (const PassingNode& p : passing) {
     const double mass = fluid.viscosity[p.node];

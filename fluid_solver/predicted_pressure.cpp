@@ -1,7 +1,7 @@
-// The pressure of a step: that of the middle of the step, and shock viscosity. Both have a part that damps what the grid
-// does not resolve and would spoil what it does. That part feels only the strain by which a cell differs from what its
-// neighbours along each axis let expect (Christensen 1990; Benson 1992, section 2.4): none in smooth flow, all of it at
-// the scale of the grid and beside solids.
+// The pressure of a step: that of the middle of the step, and shock viscosity. Both have a part that damps what the
+// grid does not resolve and would spoil what it does. That part feels only the strain by which a cell differs from what
+// its neighbours along each axis let expect (Christensen 1990; Benson 1992, section 2.4): none in smooth flow, all of
+// it at the scale of the grid and beside solids.
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +11,8 @@ namespace polynya::fluid {
 namespace {
 
 constexpr double least_linear_viscosity = 0.06, quadratic_viscosity = 1.5;  ///< of the reference
-constexpr double limited_linear_viscosity = 0.2;  ///< where the strain is not smooth
-constexpr double excess_prediction = 0.35;         ///< theta less a half
+constexpr double limited_linear_viscosity = 0.2;                            ///< where the strain is not smooth
+constexpr double excess_prediction = 0.35;                                  ///< theta less a half
 
 /// The part of a strain that those of the two neighbours do not explain; has the sign of the strain.
 inline double unexplained(double before, double own, double after) {
@@ -52,13 +52,15 @@ void predict_pressure(Fluid& fluid, double dt) {
   const double over_dt = 1.0 / dt, linear = linear_viscosity(fluid), excess = linear - least_linear_viscosity;
   for_rows(grid, 0, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
-    const double *qx = fluid.face_rate[0].data() + row, *qy = fluid.face_rate[1].data() + row, *qz = fluid.face_rate[2].data() + row;
+    const double *qx = fluid.face_rate[0].data() + row, *qy = fluid.face_rate[1].data() + row,
+                 *qz = fluid.face_rate[2].data() + row;
     const double *v0 = fluid.before.volume.data() + row, *v1 = fluid.after.volume.data() + row;
     const double* change = fluid.volume_change.data() + row;
     const double *p = fluid.pressure.data() + row, *bulk = fluid.bulk_modulus.data() + row;
     const double *rho = fluid.density.data() + row, *sound = fluid.sound_speed.data() + row;
     const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
-    const double *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row, *w = fluid.velocity[2].data() + row;
+    const double *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row,
+                 *w = fluid.velocity[2].data() + row;
     const double* b = fluid.node_fraction.data() + row;
     double* __restrict rate = fluid.rate.data() + row;
     double* __restrict out = fluid.predicted_pressure.data() + row;
@@ -74,21 +76,27 @@ void predict_pressure(Fluid& fluid, double dt) {
       const double ex = qx[i + 1] - qx[i], ey = qy[i + sy] - qy[i], ez = qz[i + sz] - qz[i];
       const double r = (ex + ey + ez) + change[i] * over_dt;
       rate[i] = r;
-      const double x = unexplained((qx[i] - qx[i - 1]) * (dx[i] / dx[i - 1]), ex, (qx[i + 2] - qx[i + 1]) * (dx[i] / dx[i + 1]));
+      const double x =
+          unexplained((qx[i] - qx[i - 1]) * (dx[i] / dx[i - 1]), ex, (qx[i + 2] - qx[i + 1]) * (dx[i] / dx[i + 1]));
       const double y = unexplained((qy[i] - qy[i - sy]) * y_before, ey, (qy[i + 2 * sy] - qy[i + sy]) * y_after);
       const double z = unexplained((qz[i] - qz[i - sz]) * z_before, ez, (qz[i + 2 * sz] - qz[i + sz]) * z_after);
       const double full = 0.999999 * dx[i] * area;
       const bool whole = std::min(v0[i], v1[i]) >= full;
       // Nodes that solids cut are light: the reference's small coefficient suits them, a large one would shake them.
-      const double open = std::min(std::min(std::min(b[i], b[i + 1]), std::min(b[i + sy], b[i + sy + 1])),
-                                   std::min(std::min(b[i + sz], b[i + sz + 1]), std::min(b[i + sy + sz], b[i + sy + sz + 1])));
+      const double open =
+          std::min(std::min(std::min(b[i], b[i + 1]), std::min(b[i + sy], b[i + sy + 1])),
+                   std::min(std::min(b[i + sz], b[i + sz + 1]), std::min(b[i + sy + sz], b[i + sy + sz + 1])));
       const bool limited = limits && open > 0.999999;
-      const double per_volume = 1.0 / (v0[i] > 0 ? v0[i] : 1.0), strain = r * per_volume, length = std::min(dx[i], thickness);
+      const double per_volume = 1.0 / (v0[i] > 0 ? v0[i] : 1.0), strain = r * per_volume,
+                   length = std::min(dx[i], thickness);
       const double rough = limited ? ((x + y) + z) * per_volume : strain;
-      const double closing_part = limited ? -((std::min(x, 0.0) + std::min(y, 0.0)) + std::min(z, 0.0)) * per_volume : -strain;
+      const double closing_part =
+          limited ? -((std::min(x, 0.0) + std::min(y, 0.0)) + std::min(z, 0.0)) * per_volume : -strain;
       const double closing = std::max(-strain, 0.0), closing_rough = std::min(closing, std::max(closing_part, 0.0));
-      const double q = rho[i] * length * (closing_rough * (quadratic_viscosity * length * closing_rough + (limited ? limited_linear_viscosity : least_linear_viscosity) * sound[i]) +
-                                          closing * excess * sound[i]);
+      const double q = rho[i] * length *
+                       (closing_rough * (quadratic_viscosity * length * closing_rough +
+                                         (limited ? limited_linear_viscosity : least_linear_viscosity) * sound[i]) +
+                        closing * excess * sound[i]);
       const double floor = std::max(m0[i] > 0 ? floor0 : -1e300, m1[i] > 0 ? floor1 : -1e300);
       const double ahead = std::max(p[i] - bulk[i] * dt * (0.5 * strain + excess_prediction * rough), floor) + q;
       out[i] = v0[i] > 0 ? ahead : 0.0;

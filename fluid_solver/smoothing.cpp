@@ -1,7 +1,7 @@
 // Pressures that alternate from cell to cell push no node, so nothing in the Lagrange phase would ever even them out. A
-// little water moves, at constant volume, from the high to the low of that pattern only: the difference across a face less
-// its (1,2,1)x(1,2,1) mean. Fields that vary along one axis alone, hydrostatic pressure and plane waves too, do not feel it.
-// Faces whose surroundings are cut are left out. (After Rhie & Chow 1983.)
+// little water moves, at constant volume, from the high to the low of that pattern only: the difference across a face
+// less its (1,2,1)x(1,2,1) mean. Fields that vary along one axis alone, hydrostatic pressure and plane waves too, do
+// not feel it. Faces whose surroundings are cut are left out. (After Rhie & Chow 1983.)
 #include <algorithm>
 
 #include "fluid_solver/sweep.hpp"
@@ -44,9 +44,14 @@ void FaceSmoothing::faces(const Fluid& fluid, double dt, int axis, int j, int k,
   if (materials_beside(fluid, j, k) != 1 || materials_beside(fluid, below_j, below_k) != 1) return;
   const std::ptrdiff_t row = grid.at(0, j, k), s = grid.stride(axis);
   const std::ptrdiff_t t1 = grid.stride((axis + 1) % 3), t2 = grid.stride((axis + 2) % 3);
-  const double *p = fluid.pressure.data() + row, *sound = fluid.sound_speed.data() + row, *b = fluid.node_fraction.data() + row;
-  const double *mean = mean_across(fluid, axis, j, k), *before = axis == 0 ? mean - 1 : mean_across(fluid, axis, below_j, below_k);
-  const double area_by_dx = axis == 0 ? 0 : axis == 1 ? grid.dz[k] : grid.dy[j], area_x = axis == 0 ? grid.dy[j] * grid.dz[k] : 0.0;
+  const double *p = fluid.pressure.data() + row, *sound = fluid.sound_speed.data() + row,
+               *b = fluid.node_fraction.data() + row;
+  const double *mean = mean_across(fluid, axis, j, k),
+               *before = axis == 0 ? mean - 1 : mean_across(fluid, axis, below_j, below_k);
+  const double area_by_dx = axis == 0   ? 0
+                            : axis == 1 ? grid.dz[k]
+                                        : grid.dy[j],
+               area_x = axis == 0 ? grid.dy[j] * grid.dz[k] : 0.0;
   for (std::ptrdiff_t i = axis == 0 ? 2 : 1; i <= grid.nx; ++i) {
     const double whole = std::min(std::min(b[i], b[i + t1]), std::min(b[i + t2], b[i + t1 + t2]));
     const double rate = whole >= 1.0 ? smoothing * dt / std::max(sound[i], 1.0) : 0.0;

@@ -1,8 +1,8 @@
 // One sweep of the remap along an axis. What crosses a face is what lay in the slab that the face has swept: of pure
-// cells with a limited linear profile of density and energy per volume (van Leer 1977, J. Comput. Phys. 23:276, monotonised
-// central slopes), of shared cells what the plane cuts off the slab, of cells that solids cut their mean at the end of the
-// Lagrange phase. Both profiles are non-negative in the whole cell and the slabs at its two faces do not overlap: no cell
-// gives more than it has.
+// cells with a limited linear profile of density and energy per volume (van Leer 1977, J. Comput. Phys. 23:276,
+// monotonised central slopes), of shared cells what the plane cuts off the slab, of cells that solids cut their mean at
+// the end of the Lagrange phase. Both profiles are non-negative in the whole cell and the slabs at its two faces do not
+// overlap: no cell gives more than it has.
 #include "fluid_solver/sweep.hpp"
 
 #include <algorithm>
@@ -25,7 +25,8 @@ struct CellRow {
 
   explicit CellRow(std::size_t width) : storage(9 * (width + 4), 0.0) {
     double* next = storage.data() + 2;  // a row may be read two cells before its first
-    for (double** array : {&inverse, &mass[0], &mass[1], &energy[0], &energy[1], &fraction[0], &fraction[1], &plain[0], &plain[1]}) {
+    for (double** array :
+         {&inverse, &mass[0], &mass[1], &energy[0], &energy[1], &fraction[0], &fraction[1], &plain[0], &plain[1]}) {
       *array = next;
       next += width + 4;
     }
@@ -66,8 +67,8 @@ inline double limited(double one, double two, double part) {
 
 /// Amount that the swept volumes carry, of a quantity per volume.
 template <bool masked, class SlopeOf>
-void carry(int first, int last, const double* __restrict swept, const double* below, const double* above, Line f, Line plain,
-           SlopeOf&& slope_of, double* __restrict out) {
+void carry(int first, int last, const double* __restrict swept, const double* below, const double* above, Line f,
+           Line plain, SlopeOf&& slope_of, double* __restrict out) {
   for (int i = first; i <= last; ++i) {
     const double volume = swept[i];
     const bool forward = volume > 0;
@@ -80,12 +81,18 @@ void carry(int first, int last, const double* __restrict swept, const double* be
   }
 }
 
-double slope_part(const std::vector<double>& width, int n) { return width[n] / (width[n] + 0.5 * (width[n - 1] + width[n + 1])); }
+double slope_part(const std::vector<double>& width, int n) {
+  return width[n] / (width[n] + 0.5 * (width[n - 1] + width[n + 1]));
+}
 
 class Pencil {
  public:
   Pencil(Fluid& fluid, int axis, double dt, SharedCells& shared)
-      : fluid_(fluid), grid_(fluid.grid), axis_(axis), dt_(dt), shared_(shared),
+      : fluid_(fluid),
+        grid_(fluid.grid),
+        axis_(axis),
+        dt_(dt),
+        shared_(shared),
         width_(static_cast<std::size_t>(grid_.nx) + 3) {
     for (int r = 0; r < (axis == 0 ? 1 : 4); ++r) rows_.emplace_back(width_);
     for (int r = 0; r < (axis == 0 ? 1 : 2); ++r) faces_.emplace_back(width_);
@@ -103,7 +110,8 @@ class Pencil {
     FaceRow& face = faces_[0];
     load(row, j, k);
     const int n = grid_.nx;
-    for (double* array : {row.inverse, row.mass[0], row.mass[1], row.energy[0], row.energy[1], row.plain[0], row.plain[1]}) {
+    for (double* array :
+         {row.inverse, row.mass[0], row.mass[1], row.energy[0], row.energy[1], row.plain[0], row.plain[1]}) {
       array[-1] = array[0] = array[1];  // beyond the ends the cells repeat: no slope in the outermost
       array[n + 1] = array[n + 2] = array[n];
     }
@@ -114,9 +122,11 @@ class Pencil {
     const auto slope_of = [part](int i) { return Slopes{part[i - 1], part[i]}; };
     for (int m = 0; m < 2; ++m) {
       if (!(row.materials >> m & 1)) continue;
-      carry_material(row.general, 1, n + 1, face, m, row.inverse - 1, row.inverse, line(row.seen_mass[m]), line(row.seen_energy[m]), line(row.seen_plain[m]), slope_of);
+      carry_material(row.general, 1, n + 1, face, m, row.inverse - 1, row.inverse, line(row.seen_mass[m]),
+                     line(row.seen_energy[m]), line(row.seen_plain[m]), slope_of);
       if (row.general) {
-        for (int i = 1; i <= n + 1; ++i) face.volume[m][i] = face.swept[i] * (face.swept[i] > 0 ? row.fraction[m][i - 1] : row.fraction[m][i]);
+        for (int i = 1; i <= n + 1; ++i)
+          face.volume[m][i] = face.swept[i] * (face.swept[i] > 0 ? row.fraction[m][i - 1] : row.fraction[m][i]);
       }
     }
     for (const int end : {1, n + 1}) inflow(face, row.materials, end, at + (end == 1 ? 0 : end), end == 1);
@@ -148,11 +158,14 @@ class Pencil {
       const Slopes part{lowest ? 0.5 : slope_part(widths, f - 1), highest ? 0.5 : slope_part(widths, f)};
       for (int m = 0; m < 2; ++m) {
         if (!(materials >> m & 1)) continue;
-        const auto line = [&](std::array<const double*, 2> CellRow::*of) { return Line{(a.*of)[m], (b.*of)[m], (c.*of)[m], (d.*of)[m]}; };
-        carry_material(general, 1, grid_.nx, face, m, b.inverse, c.inverse, line(&CellRow::seen_mass), line(&CellRow::seen_energy), line(&CellRow::seen_plain),
-                       [part](int) { return part; });
+        const auto line = [&](std::array<const double*, 2> CellRow::*of) {
+          return Line{(a.*of)[m], (b.*of)[m], (c.*of)[m], (d.*of)[m]};
+        };
+        carry_material(general, 1, grid_.nx, face, m, b.inverse, c.inverse, line(&CellRow::seen_mass),
+                       line(&CellRow::seen_energy), line(&CellRow::seen_plain), [part](int) { return part; });
         if (!general) continue;
-        for (int i = 1; i <= grid_.nx; ++i) face.volume[m][i] = face.swept[i] * (face.swept[i] > 0 ? b.seen_fraction[m][i] : c.seen_fraction[m][i]);
+        for (int i = 1; i <= grid_.nx; ++i)
+          face.volume[m][i] = face.swept[i] * (face.swept[i] > 0 ? b.seen_fraction[m][i] : c.seen_fraction[m][i]);
       }
       if (materials == 3) {
         for (int i = 1; i <= grid_.nx; ++i) shared_donor(face, i, at + i, grid_.stride(axis_));
@@ -208,8 +221,8 @@ class Pencil {
   void load(CellRow& row, std::array<int, 2> place) { load(row, place[0], place[1]); }
 
   template <class SlopeOf>
-  void carry_material(bool general, int first, int last, FaceRow& face, int m, const double* below, const double* above, Line mass, Line energy,
-                      Line plain, SlopeOf&& slope_of) {
+  void carry_material(bool general, int first, int last, FaceRow& face, int m, const double* below, const double* above,
+                      Line mass, Line energy, Line plain, SlopeOf&& slope_of) {
     if (general) {
       carry<true>(first, last, face.swept, below, above, mass, plain, slope_of, face.mass[m]);
       carry<true>(first, last, face.swept, below, above, energy, plain, slope_of, face.energy[m]);
@@ -265,7 +278,8 @@ class Pencil {
     } else if (r == 1 || r == n + 1) {
       const int row = axis_ == 1 ? k : j;
       for (int i = 1; i <= grid_.nx; ++i) {
-        book(face, materials, 2 * axis_ + (r == 1 ? 0 : 1), i, (i - 1) + static_cast<std::size_t>(grid_.nx) * (row - 1), r == 1 ? -1.0 : 1.0);
+        book(face, materials, 2 * axis_ + (r == 1 ? 0 : 1), i, (i - 1) + static_cast<std::size_t>(grid_.nx) * (row - 1),
+             r == 1 ? -1.0 : 1.0);
       }
     }
   }
@@ -310,17 +324,18 @@ class Pencil {
 void sweep(Fluid& fluid, int axis, double dt, SharedCells& shared) {
   const Grid& grid = fluid.grid;
   const std::size_t planes = static_cast<std::size_t>(axis == 2 ? grid.ny : grid.nz);
-  compute::for_chunks(planes, planes_per_chunk(axis == 2 ? grid.sy * grid.nz : grid.sz), [&](std::size_t begin, std::size_t end) {
-    Pencil pencil(fluid, axis, dt, shared);
-    for (std::size_t plane = begin; plane < end; ++plane) {
-      const int other = static_cast<int>(plane) + 1;
-      if (axis != 0) {
-        pencil.run_rows(other);
-        continue;
-      }
-      for (int j = 1; j <= grid.ny; ++j) pencil.run_row(j, other);
-    }
-  });
+  compute::for_chunks(planes, planes_per_chunk(axis == 2 ? grid.sy * grid.nz : grid.sz),
+                      [&](std::size_t begin, std::size_t end) {
+                        Pencil pencil(fluid, axis, dt, shared);
+                        for (std::size_t plane = begin; plane < end; ++plane) {
+                          const int other = static_cast<int>(plane) + 1;
+                          if (axis != 0) {
+                            pencil.run_rows(other);
+                            continue;
+                          }
+                          for (int j = 1; j <= grid.ny; ++j) pencil.run_row(j, other);
+                        }
+                      });
 }
 
 }  // namespace polynya::fluid

@@ -23,8 +23,8 @@ using SharedCells = std::vector<std::vector<SharedCell>>;
 void find_shared_cells(Fluid& fluid, SharedCells& cells);
 void forget_shared_cells(Fluid& fluid);
 
-/// What `volume` (>= 0) through the lower or upper face of a shared cell across an axis takes with it, per material. It is
-/// taken off what the cell can still give.
+/// What `volume` (>= 0) through the lower or upper face of a shared cell across an axis takes with it, per material. It
+/// is taken off what the cell can still give.
 struct Given {
   std::array<double, 2> volume{}, mass{}, energy{};
 };
@@ -36,8 +36,8 @@ void sweep(Fluid& fluid, int axis, double dt, SharedCells& shared);
 /// remap.cpp: materials that a row of cells and its neighbours all around hold: bit 1 water, bit 2 air.
 int materials_around(const Fluid& fluid, int j, int k);
 
-/// smoothing.cpp: adds to face masses what evens out pressures that alternate from cell to cell (rows of water only). Keeps
-/// means of pressures from one row of a sweep to the next.
+/// smoothing.cpp: adds to face masses what evens out pressures that alternate from cell to cell (rows of water only).
+/// Keeps means of pressures from one row of a sweep to the next.
 class FaceSmoothing {
  public:
   void faces(const Fluid& fluid, double dt, int axis, int j, int k, double* mass);

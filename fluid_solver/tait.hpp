@@ -5,7 +5,8 @@
 
 namespace polynya::fluid {
 
-/// Tait's equation of state of water: P = P0 + B ((rho/rho0)^n - 1), whatever the energy. (Constants: Liu, Khoo & Xie 2004.)
+/// Tait's equation of state of water: P = P0 + B ((rho/rho0)^n - 1), whatever the energy. (Constants: Liu, Khoo & Xie
+/// 2004.)
 struct Tait {
   double density = 1000;            ///< at the reference pressure, kg/m^3
   double reference_pressure = 1e5;  ///< P0, Pa

@@ -18,7 +18,8 @@ double volume_by_columns(const InterfacePlane& plane, int columns) {
   for (int i = 0; i < columns; ++i) {
     for (int j = 0; j < columns; ++j) {
       const double rest = plane.offset - plane.normal[0] * (i + 0.5) / columns - plane.normal[1] * (j + 0.5) / columns;
-      const double height = plane.normal[2] == 0 ? (rest > 0 ? 1.0 : 0.0) : std::clamp(rest / plane.normal[2], 0.0, 1.0);
+      const double height =
+          plane.normal[2] == 0 ? (rest > 0 ? 1.0 : 0.0) : std::clamp(rest / plane.normal[2], 0.0, 1.0);
       sum += plane.normal[2] < 0 ? 1.0 - height : height;
     }
   }
@@ -26,8 +27,8 @@ double volume_by_columns(const InterfacePlane& plane, int columns) {
 }
 
 std::vector<std::array<double, 3>> normals() {
-  std::vector<std::array<double, 3>> all{{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {1, 1, 0}, {0.5, 0, -0.5}, {1, 1, 1}, {1, 1e-9, 1e-12}, {0.3, -0.3, 0.6},
-                                         {1e-7, 1, 1}, {0.2, 0.3, 0.5}};
+  std::vector<std::array<double, 3>> all{{1, 0, 0}, {0, -1, 0},       {0, 0, 1},        {1, 1, 0},    {0.5, 0, -0.5},
+                                         {1, 1, 1}, {1, 1e-9, 1e-12}, {0.3, -0.3, 0.6}, {1e-7, 1, 1}, {0.2, 0.3, 0.5}};
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (int n = 0; n < 40; ++n) all.push_back({uniform(random), uniform(random), uniform(random)});
@@ -48,7 +49,8 @@ TEST(InterfacePlane, CutsOffTheVolumeOfItsColumns) {
 TEST(InterfacePlane, OffsetInvertsTheVolume) {
   for (const auto& normal : normals()) {
     for (const double fraction : {0.0, 1e-9, 1e-6, 1e-3, 0.02, 0.166, 0.3, 0.5, 0.7, 0.98, 1 - 1e-6, 1.0}) {
-      EXPECT_NEAR(fraction_below({normal, offset_for(normal, fraction)}), fraction, 1e-14 + 1e-10 * std::min(fraction, 1 - fraction))
+      EXPECT_NEAR(fraction_below({normal, offset_for(normal, fraction)}), fraction,
+                  1e-14 + 1e-10 * std::min(fraction, 1 - fraction))
           << normal[0] << " " << normal[1] << " " << normal[2];
     }
   }
@@ -59,7 +61,8 @@ TEST(InterfacePlane, SlabsAddUpToTheCell) {
     for (const double fraction : {0.01, 0.2, 0.5, 0.9}) {
       const InterfacePlane plane{normal, offset_for(normal, fraction)};
       for (int axis = 0; axis < 3; ++axis) {
-        const double lower = 0.3 * fraction_of_slab(plane, axis, false, 0.3), upper = 0.7 * fraction_of_slab(plane, axis, true, 0.7);
+        const double lower = 0.3 * fraction_of_slab(plane, axis, false, 0.3),
+                     upper = 0.7 * fraction_of_slab(plane, axis, true, 0.7);
         EXPECT_NEAR(lower + upper, fraction, 1e-13);
       }
     }
@@ -70,7 +73,8 @@ TEST(Interface, PlaneTranslatedDiagonallyStaysAPlane) {
   const std::array<double, 3> normal{0.48, 0.6, 0.64}, velocity{1.0, 0.7, -0.45};
   const int cells = 24;
   const double h = 1.0 / cells;
-  const auto water_part = [&](double i, double j, double k, double time) {  // of the cell with this lower corner, in cells
+  const auto water_part = [&](double i, double j, double k,
+                              double time) {  // of the cell with this lower corner, in cells
     const double speed = normal[0] * velocity[0] + normal[1] * velocity[1] + normal[2] * velocity[2];
     const double corner = h * (normal[0] * i + normal[1] * j + normal[2] * k);
     return fraction_below({normal, (0.8 + speed * time - corner) / h});

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fluid_solver/exact_riemann.hpp"
-#include "tests/fluid_solver/analytic_overlap.hpp"
 #include "fluid_solver/fluid.hpp"
+#include "tests/fluid_solver/analytic_overlap.hpp"
 
 using namespace polynya::fluid;
 
@@ -20,8 +20,10 @@ struct Tube {
 const Tube sod{IdealGas{1.4}, IdealGas{1.4}, {1, 0, 1, 1.4, 0}, {0.125, 0, 0.1, 1.4, 0}, 0.5, 0.2};
 const Tube two_gases{IdealGas{1.4}, IdealGas{1.2}, {1, 0, 1, 1.4, 0}, {0.125, 0, 0.1, 1.2, 0}, 0.5, 0.15};
 const Tube strong{IdealGas{1.4}, IdealGas{1.667}, {1, 0, 500, 1.4, 0}, {1, 0, 0.2, 1.667, 0}, 0.5, 0.015};
-const Tube gas_water{IdealGas{1.4}, StiffenedGas{4.4, 6e8}, {50, 0, 1e5, 1.4, 0}, {1000, 0, 1e9, 4.4, 6e8}, 0.3, 2.4e-4};
-const Tube air_water{IdealGas{1.4}, StiffenedGas{7.15, 2.8951e8}, {1, 0, 1e5, 1.4, 0}, {1000, 0, 1e7, 7.15, 2.8951e8}, 0.3, 4e-4};
+const Tube gas_water{IdealGas{1.4}, StiffenedGas{4.4, 6e8}, {50, 0, 1e5, 1.4, 0}, {1000, 0, 1e9, 4.4, 6e8}, 0.3,
+                     2.4e-4};
+const Tube air_water{
+    IdealGas{1.4}, StiffenedGas{7.15, 2.8951e8}, {1, 0, 1e5, 1.4, 0}, {1000, 0, 1e7, 7.15, 2.8951e8}, 0.3, 4e-4};
 
 Fluid run(const Tube& tube, int cells, int axis = 0) {
   Setup setup;
@@ -29,7 +31,8 @@ Fluid run(const Tube& tube, int cells, int axis = 0) {
   setup.pressure_floor = {-1e300, -1e300};
   setup.boundary.fill(Boundary::wall);
   const double h = 1.0 / cells;
-  std::array<std::vector<double>, 3> lines{test::even_line(0, h, 1), test::even_line(0, h, 1), test::even_line(0, h, 1)};
+  std::array<std::vector<double>, 3> lines{test::even_line(0, h, 1), test::even_line(0, h, 1),
+                                           test::even_line(0, h, 1)};
   lines[axis] = test::even_line(0, 1, cells);
   Fluid fluid(Grid(lines[0], lines[1], lines[2]), setup);
   fill(fluid, {}, [&](int i, int j, int k) {
@@ -43,7 +46,8 @@ Fluid run(const Tube& tube, int cells, int axis = 0) {
     state.specific_energy[m] = energy_at(setup.law[m], s.density, s.pressure);
     return state;
   });
-  while (fluid.time < tube.time * (1 - 1e-12)) step(fluid, std::min(0.8 * stable_step(fluid), tube.time - fluid.time), {});
+  while (fluid.time < tube.time * (1 - 1e-12))
+    step(fluid, std::min(0.8 * stable_step(fluid), tube.time - fluid.time), {});
   update_cell_states(fluid);
   return fluid;
 }
@@ -51,8 +55,10 @@ Fluid run(const Tube& tube, int cells, int axis = 0) {
 }  // namespace
 
 TEST(ExactRiemann, ReproducesPublishedStarValues) {
-  const std::vector<std::tuple<Tube, double, double>> cases{{sod, 0.3031302, 0.9274526}, {two_gases, 0.2938074, 0.9496652},
-                                                            {gas_water, 1.419048e7, -482.6104}, {air_water, 1.025830e5, -6.828185}};
+  const std::vector<std::tuple<Tube, double, double>> cases{{sod, 0.3031302, 0.9274526},
+                                                            {two_gases, 0.2938074, 0.9496652},
+                                                            {gas_water, 1.419048e7, -482.6104},
+                                                            {air_water, 1.025830e5, -6.828185}};
   for (const auto& [tube, pressure, velocity] : cases) {
     const ExactRiemann exact(tube.left, tube.right);
     EXPECT_NEAR(exact.star_pressure(), pressure, 1e-6 * pressure);
@@ -64,8 +70,8 @@ TEST(ExactRiemann, ReproducesPublishedStarValues) {
 
 namespace {
 
-/// Mean errors of density, velocity and pressure relative to the larger initial density and pressure and the star velocity,
-/// and by how much star states are overshot beyond three cells from every wave.
+/// Mean errors of density, velocity and pressure relative to the larger initial density and pressure and the star
+/// velocity, and by how much star states are overshot beyond three cells from every wave.
 struct Errors {
   std::array<double, 3> mean{}, overshoot{};
 };
@@ -92,7 +98,8 @@ Errors errors_of(const Tube& tube, int cells) {
     const std::array<double, 3> found{(fluid.material[0].mass[c] + fluid.material[1].mass[c]) / fluid.after.volume[c],
                                       0.5 * (fluid.velocity[0][c] + fluid.velocity[0][c + 1]), fluid.pressure[c]};
     const auto here = at(x);
-    const bool star = std::abs(here[2] - exact.star_pressure()) < 1e-9 * scale[2] && at(x - 3 * h)[0] == here[0] && at(x + 3 * h)[0] == here[0];
+    const bool star = std::abs(here[2] - exact.star_pressure()) < 1e-9 * scale[2] && at(x - 3 * h)[0] == here[0] &&
+                      at(x + 3 * h)[0] == here[0];
     const RiemannState& outer = (x - tube.diaphragm) / tube.time < exact.star_velocity() ? tube.left : tube.right;
     const std::array<double, 3> from{outer.density, outer.velocity, outer.pressure};
     for (int f = 0; f < 3; ++f) {
@@ -109,15 +116,17 @@ std::array<double, 3> orders_of(const char* name, const Tube& tube) {
   const Errors coarse = errors_of(tube, 100), fine = errors_of(tube, 400);
   std::array<double, 3> order{};
   for (int f = 0; f < 3; ++f) order[f] = 0.5 * std::log2(coarse.mean[f] / fine.mean[f]);
-  std::printf("%-22s errors at 400 cells %.2e %.2e %.2e  orders %.2f %.2f %.2f  overshoot %.4f %.4f %.4f\n", name, fine.mean[0], fine.mean[1],
-              fine.mean[2], order[0], order[1], order[2], fine.overshoot[0], fine.overshoot[1], fine.overshoot[2]);
+  std::printf("%-22s errors at 400 cells %.2e %.2e %.2e  orders %.2f %.2f %.2f  overshoot %.4f %.4f %.4f\n", name,
+              fine.mean[0], fine.mean[1], fine.mean[2], order[0], order[1], order[2], fine.overshoot[0],
+              fine.overshoot[1], fine.overshoot[2]);
   return order;
 }
 
 }  // namespace
 
 TEST(Tube, WavesOfGasesAndWaterConvergeAtFirstOrder) {
-  const std::vector<std::pair<const char*, const Tube*>> cases{{"Sod", &sod}, {"two gases", &two_gases}, {"strong shock", &strong}, {"gas and water", &gas_water}};
+  const std::vector<std::pair<const char*, const Tube*>> cases{
+      {"Sod", &sod}, {"two gases", &two_gases}, {"strong shock", &strong}, {"gas and water", &gas_water}};
   for (const auto& [name, tube] : cases) {
     const auto order = orders_of(name, *tube);
     EXPECT_GE(order[0], 0.65) << name;
@@ -157,7 +166,8 @@ TEST(Tube, AllAxesGiveTheSameBits) {
   for (const int axis : {1, 2}) {
     const Fluid other = run(sod, 60, axis);
     for (int i = 1; i <= 60; ++i) {
-      const std::ptrdiff_t a = x.grid.at(i, 1, 1), b = other.grid.at(axis == 1 ? 1 : 1, axis == 1 ? i : 1, axis == 2 ? i : 1);
+      const std::ptrdiff_t a = x.grid.at(i, 1, 1),
+                           b = other.grid.at(axis == 1 ? 1 : 1, axis == 1 ? i : 1, axis == 2 ? i : 1);
       EXPECT_NEAR(x.material[0].mass[a], other.material[0].mass[b], 1e-13 * x.material[0].mass[a] + 1e-25);
     }
   }

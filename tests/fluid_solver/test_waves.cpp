@@ -14,8 +14,8 @@ namespace {
 
 const double pi = std::acos(-1.0);
 
-/// A simple wave of an ideal gas (gamma 1.4, density and pressure 1 ahead) that runs along x, or along the diagonal of x and
-/// y, for 0.25 or 0.2; mean error of the pressure relative to the wave's.
+/// A simple wave of an ideal gas (gamma 1.4, density and pressure 1 ahead) that runs along x, or along the diagonal of
+/// x and y, for 0.25 or 0.2; mean error of the pressure relative to the wave's.
 double simple_wave_error(int cells, bool diagonal) {
   const double g = 1.4, c = std::sqrt(g), amplitude = 0.02, h = 1.0 / cells, along = diagonal ? std::sqrt(0.5) : 1.0;
   const auto speed = [&](double s) {
@@ -43,7 +43,8 @@ double simple_wave_error(int cells, bool diagonal) {
     CellState state;
     state.fraction[0] = 1;
     state.density[0] = cell_mean(grid.centre_x(i), grid.centre_y(j), [&](double s) { return density(speed(s)); });
-    const double pressure = cell_mean(grid.centre_x(i), grid.centre_y(j), [&](double s) { return std::pow(density(speed(s)), g); });
+    const double pressure =
+        cell_mean(grid.centre_x(i), grid.centre_y(j), [&](double s) { return std::pow(density(speed(s)), g); });
     state.specific_energy[0] = pressure / (g - 1) / state.density[0];
     return state;
   });
@@ -97,10 +98,12 @@ Line row(int cells, double length, std::array<EquationOfState, 2> law, Boundary 
 
 TEST(Wave, SmoothWavesConvergeAtSecondOrder) {
   const double coarse = simple_wave_error(50, false), fine = simple_wave_error(400, false);
-  std::printf("smooth wave along x: %.2e at 50, %.2e at 400 cells, order %.2f\n", coarse, fine, std::log2(coarse / fine) / 3);
+  std::printf("smooth wave along x: %.2e at 50, %.2e at 400 cells, order %.2f\n", coarse, fine,
+              std::log2(coarse / fine) / 3);
   EXPECT_GE(std::log2(coarse / fine) / 3, 1.8);
   const double rough = simple_wave_error(32, true), smooth = simple_wave_error(128, true);
-  std::printf("smooth wave along a diagonal: %.2e at 32, %.2e at 128 cells, order %.2f\n", rough, smooth, 0.5 * std::log2(rough / smooth));
+  std::printf("smooth wave along a diagonal: %.2e at 32, %.2e at 128 cells, order %.2f\n", rough, smooth,
+              0.5 * std::log2(rough / smooth));
   EXPECT_GE(0.5 * std::log2(rough / smooth), 1.8);
 }
 
@@ -134,8 +137,8 @@ TEST(Wave, InterfaceCarriedAlongKeepsPressureAndVelocity) {
 }
 
 TEST(Wave, CavityOpensAsWideAsTheWaterGivesWay) {
-  // Water torn apart at 100 m/s to both sides: waves bring it down to the vapour pressure, the rest of the speed opens a
-  // cavity of width 2 (u - (p0 - pc)/(rho c)) t.
+  // Water torn apart at 100 m/s to both sides: waves bring it down to the vapour pressure, the rest of the speed opens
+  // a cavity of width 2 (u - (p0 - pc)/(rho c)) t.
   const double speed = 100, time = 1e-4;
   // The right half: a wall stands for symmetry.
   polynya::fluid::Setup setup;

@@ -62,8 +62,8 @@ struct VortexResult {
   double shape_error = 0;   ///< sum of |fraction - exact| times the cell volume
 };
 
-/// A sphere in the three-dimensional deforming vortex, there and back in a time of 3 (Enright et al. 2002, J. Comput. Phys.
-/// 183:83), half a cell per step. `look` is called with the fluid and the time after every step.
+/// A sphere in the three-dimensional deforming vortex, there and back in a time of 3 (Enright et al. 2002, J. Comput.
+/// Phys. 183:83), half a cell per step. `look` is called with the fluid and the time after every step.
 template <class Look>
 VortexResult run_vortex(int cells, Look&& look) {
   const double h = 1.0 / cells, period = 3.0, pi = std::acos(-1.0);
@@ -81,7 +81,8 @@ VortexResult run_vortex(int cells, Look&& look) {
       }
       return static_cast<double>(inside) / (points * points * points);
     };
-    const double rough = part(2), distance = std::hypot(h * (i - 0.5) - 0.35, h * (j - 0.5) - 0.35, h * (k - 0.5) - 0.35);
+    const double rough = part(2),
+                 distance = std::hypot(h * (i - 0.5) - 0.35, h * (j - 0.5) - 0.35, h * (k - 0.5) - 0.35);
     return std::abs(distance - 0.15) > h ? rough : part(20);
   };
   Fluid fluid = transported(cells, sphere_part);
@@ -92,7 +93,9 @@ VortexResult run_vortex(int cells, Look&& look) {
     return total;
   };
   // Integrals of the velocity over faces, exact, so that what flows into a cell flows out of it.
-  const auto integral = [&](int n) { return (std::cos(2 * pi * h * (n - 1)) - std::cos(2 * pi * h * n)) / (2 * pi); };  // of sin(2 pi s)
+  const auto integral = [&](int n) {
+    return (std::cos(2 * pi * h * (n - 1)) - std::cos(2 * pi * h * n)) / (2 * pi);
+  };  // of sin(2 pi s)
   VortexResult result;
   const double volume = sum(start), cell = h * h * h;
   const int steps = static_cast<int>(std::ceil(period * 2.0 / (0.5 * h)));
@@ -110,10 +113,12 @@ VortexResult run_vortex(int cells, Look&& look) {
     result.volume_error = std::max(result.volume_error, std::abs(sum(fluid.material[water].volume) - volume) / volume);
     for (std::size_t c = 0; c < start.size(); ++c) {
       for (const Material& m : fluid.material)
-        result.bound_error = std::max(result.bound_error, std::max(-m.volume[c], m.volume[c] - fluid.after.volume[c]) / cell);
+        result.bound_error =
+            std::max(result.bound_error, std::max(-m.volume[c], m.volume[c] - fluid.after.volume[c]) / cell);
     }
   }
-  for (std::size_t c = 0; c < start.size(); ++c) result.shape_error += std::abs(fluid.material[water].volume[c] - start[c]);
+  for (std::size_t c = 0; c < start.size(); ++c)
+    result.shape_error += std::abs(fluid.material[water].volume[c] - start[c]);
   return result;
 }
 inline VortexResult run_vortex(int cells) {
