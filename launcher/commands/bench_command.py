@@ -13,7 +13,7 @@ PROGRAM = "polynya_bench"
 def run(arguments: argparse.Namespace) -> int:
     build.build([PROGRAM])
     command = [str(build.program_folder() / PROGRAM)]
-    command += [arguments.name] if arguments.name else []
+    command += ["--only", arguments.name] if arguments.name else []
     command += ["--json"] if arguments.json else []
     environment = {**os.environ, "OMP_WAIT_POLICY": "passive"}
     code = subprocess.run(command, env=environment, check=False).returncode

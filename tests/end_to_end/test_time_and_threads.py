@@ -1,5 +1,6 @@
 """Results follow from the scene alone: not from threads, not from who is slow; and where the time of a run goes."""
 
+import json
 import os
 import signal
 import subprocess
@@ -146,6 +147,15 @@ class Alone(unittest.TestCase):
             for key in keys + ("end_time", "steps"):
                 self.assertIsNotNone(summary[key], f"{scene}: {key}")
             self.assertGreater(sum(summary["processes"][name]["seconds"].values()), 0)
+
+
+class Bench(unittest.TestCase):
+    def test_measures_what_is_named(self):
+        process = polynya("bench", "triad", "--json")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        figures = json.loads(process.stdout.strip().splitlines()[-1])
+        self.assertEqual(list(figures), ["machine.triad_GB_s"])
+        self.assertGreater(figures["machine.triad_GB_s"], 0)
 
 
 if __name__ == "__main__":
