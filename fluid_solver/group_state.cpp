@@ -172,9 +172,9 @@ void set_group_donors(Fluid& fluid, double dt) {
 
 namespace {
 
-/// Shares of the group's mass that its members get: by volume, more below, and where a member is compressed by itself. The emptier a
-/// cell under half full, the more of that is evened out: all of it in an empty cell, nothing in a half-full one, which
-/// would be a cell of its own. So cells join and leave groups without a jolt.
+/// Shares of the group's mass that its members get: by volume, more below, and where a member is compressed by itself.
+/// The emptier a cell under half full, the more of that is evened out: all of it in an empty cell, nothing in a half-full
+/// one, which would be a cell of its own. So cells join and leave groups without a jolt.
 std::vector<double> mass_shares(const Fluid& fluid, std::size_t g) {
   const Range range = members_of(fluid.groups, g);
   const double* compression = fluid.own_compression.data() + fluid.groups.first[g];
