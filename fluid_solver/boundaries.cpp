@@ -1,8 +1,9 @@
-// The six sides of the grid. Walls (and planes of symmetry) have closed faces and no normal velocity. Non-reflecting sides
-// hold the undisturbed pressure of their layer plus the impedance rho c times the outward speed, and let fluid through:
-// what leaves has the state inside, what enters has the ambient state of the layer. Around a body, waves are spherical:
-// (d/dt + c d/dr + c/r) p = 0 with rho du/dt = -dp/dr gives p = rho c (u - w), dw/dt = c/r (u - w). The part w of the
-// outward speed, which starts as that of the potential flow, meets no resistance (Geers 1978, J. Acoust. Soc. Am. 64:1500).
+// The six sides of the grid. Walls (and planes of symmetry) have closed faces and no normal velocity. Non-reflecting
+// sides hold the undisturbed pressure of their layer plus the impedance rho c times the outward speed, and let fluid
+// through: what leaves has the state inside, what enters has the ambient state of the layer. Around a body, waves are
+// spherical: (d/dt + c d/dr + c/r) p = 0 with rho du/dt = -dp/dr gives p = rho c (u - w), dw/dt = c/r (u - w). The part
+// w of the outward speed, which starts as that of the potential flow, meets no resistance (Geers 1978, J. Acoust. Soc.
+// Am. 64:1500).
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +18,9 @@ struct Side {
 };
 constexpr std::array<Side, 6> sides{{{0, false}, {0, true}, {1, false}, {1, true}, {2, false}, {2, true}}};
 
-int number(const Grid& grid, int axis) { return axis == 0 ? grid.nx : axis == 1 ? grid.ny : grid.nz; }
+int number(const Grid& grid, int axis) {
+  return axis == 0 ? grid.nx : axis == 1 ? grid.ny : grid.nz;
+}
 
 /// Calls body(inner cell, ghost cell, face, k) for every cell along a side; nodes instead of cells with extra = 1.
 template <class Body>
@@ -63,7 +66,8 @@ double outward_speed(const Fluid& fluid, Side side, std::ptrdiff_t cell) {
   const std::ptrdiff_t face = side.upper ? cell + fluid.grid.stride(side.axis) : cell;
   const double area = face_area(fluid.grid, side.axis, cell) * mean_open(fluid, side.axis, face);
   if (!(area > 0)) return 0;
-  return (side.upper ? 1.0 : -1.0) * (fluid.face_rate[side.axis][face] / area - fluid.setup.ambient_velocity[side.axis]);
+  return (side.upper ? 1.0 : -1.0) *
+         (fluid.face_rate[side.axis][face] / area - fluid.setup.ambient_velocity[side.axis]);
 }
 
 /// Cosine of the way out with the ray from the body's centre, over the distance from it, 1/m.
@@ -103,7 +107,8 @@ void advance_far_field(Fluid& fluid, double dt) {
     std::size_t at = 0;
     along(fluid.grid, sides[s], 0, [&](std::ptrdiff_t cell) {
       double& slow = fluid.far_field.slow_speed[s][at++];
-      slow += dt * fluid.sound_speed[cell] * spreading(fluid, sides[s], cell) * (outward_speed(fluid, sides[s], cell) - slow);
+      slow += dt * fluid.sound_speed[cell] * spreading(fluid, sides[s], cell) *
+              (outward_speed(fluid, sides[s], cell) - slow);
     });
   }
 }

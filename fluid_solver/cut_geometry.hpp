@@ -12,19 +12,19 @@ enum class Boundary { wall, non_reflecting };  ///< wall: closed, also a plane o
 /// A cell that holds solid, in grid terms.
 struct WallPiece {
   std::ptrdiff_t cell = 0;
-  double debris = 0;                                   ///< displaced by particles, m^3
-  std::array<std::array<double, 3>, 2> area{};         ///< per body, into the body, m^2
-  std::array<std::array<double, 3>, 2> velocity{};     ///< m/s
+  double debris = 0;                                ///< displaced by particles, m^3
+  std::array<std::array<double, 3>, 2> area{};      ///< per body, into the body, m^2
+  std::array<std::array<double, 3>, 2> velocity{};  ///< m/s
 };
 
 /// What the solids leave to the fluid at one time: free volume of cells, open fraction of faces, and the free fraction
 /// around nodes. Only entries touched by solid differ from the empty grid, and only those are rewritten by `set`.
 struct CutGeometry {
-  std::vector<double> volume;                ///< free volume, m^3; ghosts 0
-  std::array<std::vector<double>, 3> open;   ///< open fraction of lower faces; closed boundaries and ghosts 0
-  std::vector<double> node_fraction;         ///< mean free fraction of the cells around a node ("beta")
-  std::vector<WallPiece> walls;              ///< sorted by cell
-  long clamped_debris = 0;                   ///< cells whose debris did not fit
+  std::vector<double> volume;               ///< free volume, m^3; ghosts 0
+  std::array<std::vector<double>, 3> open;  ///< open fraction of lower faces; closed boundaries and ghosts 0
+  std::vector<double> node_fraction;        ///< mean free fraction of the cells around a node ("beta")
+  std::vector<WallPiece> walls;             ///< sorted by cell
+  long clamped_debris = 0;                  ///< cells whose debris did not fit
 
   CutGeometry(const Grid& grid, const std::array<Boundary, 6>& boundary);
   /// Corners of the cells that hold solid, each once.

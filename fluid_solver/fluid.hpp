@@ -19,7 +19,8 @@ namespace polynya::fluid {
 
 inline constexpr int water = 0, air = 1;
 
-/// Shock viscosity away from solids: that of the reference in all compression, or only in compression that is not smooth.
+/// Shock viscosity away from solids: that of the reference in all compression, or only in compression that is not
+/// smooth.
 enum class ShockViscosity { reference, limited };
 
 /// What does not change during a run.
@@ -29,8 +30,8 @@ struct Setup {
   std::array<Boundary, 6> boundary{};                 ///< x-, x+, y-, y+, z-, z+
   std::array<double, 3> ambient_velocity{};           ///< of the fluid beyond non-reflecting boundaries, m/s
   ShockViscosity shock_viscosity = ShockViscosity::limited;
-  double gravity = 0;                                 ///< m/s^2 along -z
-  double atmospheric_pressure = 101325;               ///< Pa, what gauge pressures are counted from
+  double gravity = 0;                    ///< m/s^2 along -z
+  double atmospheric_pressure = 101325;  ///< Pa, what gauge pressures are counted from
 };
 
 /// Extensive state of one material in every cell.
@@ -40,20 +41,21 @@ struct Material {
 
 /// Fluid beyond a non-reflecting boundary, by layer of the grid: what flows in, and the pressure that holds it.
 struct Ambient {
-  double pressure = 0;                                ///< at the height of the cell centre, Pa
+  double pressure = 0;                                            ///< at the height of the cell centre, Pa
   std::array<double, 2> fraction{}, density{}, energy_density{};  ///< per material; kg and J per m^3 of the mixture
 };
 
 /// The flow beyond non-reflecting boundaries: the water around a body that moves spreads like a spherical wave, so the
 /// boundary carries slow flow without resistance and answers fast changes with the impedance rho c.
 struct FarField {
-  std::array<double, 3> centre{};                   ///< of the body, m
-  bool spherical = false;                           ///< false: plane waves, nothing flows beyond
-  std::array<std::vector<double>, 6> slow_speed;    ///< outward, by side and face in the order of its cells, m/s
+  std::array<double, 3> centre{};                 ///< of the body, m
+  bool spherical = false;                         ///< false: plane waves, nothing flows beyond
+  std::array<std::vector<double>, 6> slow_speed;  ///< outward, by side and face in the order of its cells, m/s
 };
 
-/// A started flow is not quite the one the scheme would settle to, and the difference rings between walls and cells. Until
-/// sound has crossed a few cells the linear shock viscosity is therefore close to critical: 0.06 + excess exp(-t / decay).
+/// A started flow is not quite the one the scheme would settle to, and the difference rings between walls and cells.
+/// Until sound has crossed a few cells the linear shock viscosity is therefore close to critical: 0.06 + excess exp(-t
+/// / decay).
 struct StartDamping {
   double excess = 0, decay = 1;  ///< -, s
 };
@@ -81,17 +83,17 @@ struct Fluid {
   compute::Stopwatch watch;
   double time = 0;
   long steps = 0;
-  int correction_iterations = 0;              ///< of the last step's volume correction
+  int correction_iterations = 0;  ///< of the last step's volume correction
 
   // Valid from the beginning of a step; kept for output and for the loads on solids.
-  std::vector<double> pressure;            ///< absolute, at the centre of the whole cell, Pa
-  std::vector<double> predicted_pressure;  ///< what the step used, with shock viscosity, Pa
+  std::vector<double> pressure;                                    ///< absolute, at the centre of the whole cell, Pa
+  std::vector<double> predicted_pressure;                          ///< what the step used, with shock viscosity, Pa
   std::vector<std::array<std::array<double, 3>, 2>> wall_impulse;  ///< by wall of `after` and body: from nodes that the
                                                                    ///< wall carried along in the last step, N s
-  std::vector<double> density;             ///< of the mixture, per free volume, kg/m^3
-  std::vector<double> bulk_modulus;        ///< of the mixture, 0 where water cavitates, Pa
-  std::vector<double> sound_speed;         ///< the largest of the materials present, m/s
-  std::vector<double> total_mass;          ///< of both materials, kg
+  std::vector<double> density;                                     ///< of the mixture, per free volume, kg/m^3
+  std::vector<double> bulk_modulus;                                ///< of the mixture, 0 where water cavitates, Pa
+  std::vector<double> sound_speed;                                 ///< the largest of the materials present, m/s
+  std::vector<double> total_mass;                                  ///< of both materials, kg
   // Working space of a step.
   std::array<std::vector<double>, 3> face_coefficient;  ///< open area over the sum of node fractions of the face
   std::array<std::vector<double>, 3> face_rate;         ///< volume per time through lower faces, m^3/s
@@ -99,24 +101,24 @@ struct Fluid {
   std::array<std::vector<double>, 3> force;             ///< hourglass force of nodes, N
   std::array<std::vector<double>, 3> next_velocity;
   std::vector<double> node_fraction, node_mass;
-  std::vector<double> volume_change;                    ///< of cells by what is not flow through faces, m^3
-  std::vector<double> viscosity;                        ///< hourglass coefficient of cells, kg/s
-  std::vector<double> rate;                             ///< of volume, at the beginning of the step, m^3/s
+  std::vector<double> volume_change;  ///< of cells by what is not flow through faces, m^3
+  std::vector<double> viscosity;      ///< hourglass coefficient of cells, kg/s
+  std::vector<double> rate;           ///< of volume, at the beginning of the step, m^3/s
   /// What leaves the cells that solids cut, and in ghosts what flows in.
   struct Donor {
-    std::vector<double> mass, energy, volume;           ///< per Lagrangian volume
+    std::vector<double> mass, energy, volume;  ///< per Lagrangian volume
   };
   std::array<Donor, 2> donor;
-  std::vector<std::ptrdiff_t> held_cells;               ///< that solids cut, before or after, and members of groups: they
-                                                        ///< give what they held at the end of the Lagrange phase
-  std::vector<unsigned char> held, row_held;            ///< 1 at these cells; by row: 1 where there are some
-  std::vector<double> sweep_volume;                     ///< of cells, during the remap, m^3
+  std::vector<std::ptrdiff_t> held_cells;     ///< that solids cut, before or after, and members of groups: they
+                                              ///< give what they held at the end of the Lagrange phase
+  std::vector<unsigned char> held, row_held;  ///< 1 at these cells; by row: 1 where there are some
+  std::vector<double> sweep_volume;           ///< of cells, during the remap, m^3
   struct Outflow {
-    std::array<double, 2> mass{}, energy{};             ///< kg, J
+    std::array<double, 2> mass{}, energy{};  ///< kg, J
   };
-  std::array<std::vector<Outflow>, 6> outflow;          ///< of the last remap, by side and face
-  std::vector<unsigned char> cut_rows;                  ///< 1 where face coefficients or volumes may change, by row
-  std::vector<unsigned char> row_materials;             ///< bit 1 water, bit 2 air, by row (j + (ny+3)*k)
+  std::array<std::vector<Outflow>, 6> outflow;  ///< of the last remap, by side and face
+  std::vector<unsigned char> cut_rows;          ///< 1 where face coefficients or volumes may change, by row
+  std::vector<unsigned char> row_materials;     ///< bit 1 water, bit 2 air, by row (j + (ny+3)*k)
   std::vector<std::int32_t> label;
 
   Fluid(Grid grid, Setup setup);
@@ -127,8 +129,8 @@ struct CellState {
   std::array<double, 2> fraction{}, density{}, specific_energy{};
 };
 
-/// Gives every cell the state that state(i, j, k) returns (padded indices from 1) and takes the layer's ambient from the
-/// first column.
+/// Gives every cell the state that state(i, j, k) returns (padded indices from 1) and takes the layer's ambient from
+/// the first column.
 template <class StateOf>
 void fill(Fluid& fluid, const Overlap& overlap, StateOf&& state);
 /// Sets masses and energies of one cell from its state and its free volume.
@@ -139,16 +141,17 @@ void apply_ambient(Fluid& fluid);
 /// Node masses, groups, pressures and account of a fresh state. Called by the fillers.
 void finish_filling(Fluid& fluid);
 
-/// Water below `waterline`, air above, at rest relative to each other under gravity: the discrete balance of forces holds
-/// to rounding. `velocity` is given to all nodes.
+/// Water below `waterline`, air above, at rest relative to each other under gravity: the discrete balance of forces
+/// holds to rounding. `velocity` is given to all nodes.
 void fill_hydrostatic(Fluid& fluid, const Overlap& overlap, double waterline, std::array<double, 3> velocity = {});
 
 /// Starts the fluid as the potential flow around the moving walls (see potential_flow.cpp) and sets the pressure that
 /// belongs to it. Call after fill_hydrostatic. Returns the iterations of the projection.
 int start_potential_flow(Fluid& fluid);
 
-/// Fits a potential flow just started at `now` to the overlap a moment later, before the first step: a wall that lies in
-/// a plane of faces leaves that plane at once, and only then its edges meet the nodes there. Leaves the fluid at `now`.
+/// Fits a potential flow just started at `now` to the overlap a moment later, before the first step: a wall that lies
+/// in a plane of faces leaves that plane at once, and only then its edges meet the nodes there. Leaves the fluid at
+/// `now`.
 int adapt_potential_flow(Fluid& fluid, const Overlap& now, const Overlap& soon, double waterline);
 
 /// Advances by dt to the time at which the solids are as `overlap` says. Throws FluidError at a state without meaning.
@@ -163,12 +166,14 @@ double wall_pressure(const Fluid& fluid, std::ptrdiff_t cell);
 
 /// Gauge pressure and vertical pressure gradient (density times gravity) for the entries of an overlap, in its order:
 /// p(z) = value - gradient (z - z of the whole cell's centre). After a step: what the step did to the fluid.
-void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<double>& value, std::vector<double>& gradient);
+void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<double>& value,
+                      std::vector<double>& gradient);
 
 /// Refreshes pressure, density and sound speed from the state (also what a step does first).
 void update_cell_states(Fluid& fluid);
 
-/// Instantaneous entries of the account: energies, momentum, masses. False if some cell or node may have lost its meaning.
+/// Instantaneous entries of the account: energies, momentum, masses. False if some cell or node may have lost its
+/// meaning.
 bool update_account(Fluid& fluid);
 
 struct FluidError : std::runtime_error {

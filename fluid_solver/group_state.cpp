@@ -28,16 +28,18 @@ std::size_t position_of(const Range& range, std::ptrdiff_t parent, std::size_t c
   return child;
 }
 
-double height_of(const Grid& grid, std::ptrdiff_t cell) { return grid.centre_z(static_cast<int>(cell / grid.sz)); }
+double height_of(const Grid& grid, std::ptrdiff_t cell) {
+  return grid.centre_z(static_cast<int>(cell / grid.sz));
+}
 
 /// The part of its own change of volume that a member keeps: all of it from half full on, none where it is empty.
 double kept_share(const Grid& grid, std::ptrdiff_t cell, double volume) {
   return std::min(1.0, volume / (0.5 * grid.cell_volume[cell]));
 }
 
-/// Rate of strain of every member. A member is strained by its own rate of volume, but one under half full hands the rest
-/// of it on to its parent, the fuller one: so it is no stiffer than a half-full cell, and a cell that joins or leaves a
-/// group feels no jolt. What the root cannot keep strains the whole group.
+/// Rate of strain of every member. A member is strained by its own rate of volume, but one under half full hands the
+/// rest of it on to its parent, the fuller one: so it is no stiffer than a half-full cell, and a cell that joins or
+/// leaves a group feels no jolt. What the root cannot keep strains the whole group.
 void member_strains(const Fluid& fluid, std::size_t g, double group_volume, std::vector<double>& strain) {
   const Range range = members_of(fluid.groups, g);
   const std::size_t count = static_cast<std::size_t>(range.last - range.first);
@@ -48,8 +50,10 @@ void member_strains(const Fluid& fluid, std::size_t g, double group_volume, std:
     const double volume = fluid.before.volume[c], rate = strain[m] + fluid.rate[c];
     const double kept = kept_share(fluid.grid, c, volume) * rate;
     strain[m] = volume > 0 ? kept / volume : 0.0;
-    if (m == 0) common = rate - kept;
-    else strain[position_of(range, parent, m)] += rate - kept;
+    if (m == 0)
+      common = rate - kept;
+    else
+      strain[position_of(range, parent, m)] += rate - kept;
   }
   // A member without volume has nothing to be strained, the group holds half a cell at least.
   for (double& one : strain) one += group_volume > 0 ? common / group_volume : 0.0;
@@ -99,8 +103,10 @@ void evaluate_groups(Fluid& fluid) {
       if (differs && fluid.before.volume[c] > 0)
         *compression = fluid.total_mass[c] / (rho * fluid.before.volume[c]) - 1.0 - weight_compression(fluid, state, c);
       const double own = state.point.bulk_modulus * *compression++;
-      fluid.pressure[c] = filled ? state.point.pressure + rho * fluid.setup.gravity * (state.height - height_of(grid, c)) + own
-                                 : state.volume > 0 ? fluid.setup.pressure_floor[water] : 0.0;
+      fluid.pressure[c] =
+          filled ? state.point.pressure + rho * fluid.setup.gravity * (state.height - height_of(grid, c)) + own
+          : state.volume > 0 ? fluid.setup.pressure_floor[water]
+                             : 0.0;
       fluid.density[c] = rho;
       fluid.bulk_modulus[c] = state.point.bulk_modulus;
       fluid.sound_speed[c] = state.point.sound_speed;
@@ -144,7 +150,8 @@ void set_group_donors(Fluid& fluid, double dt) {
       change += dt * fluid.rate[c];
       work += dt * fluid.rate[c] * fluid.predicted_pressure[c];
     }
-    const std::array<double, 2> share = volume_shares(fluid.setup.law, fluid.setup.pressure_floor, state.content, change);
+    const std::array<double, 2> share =
+        volume_shares(fluid.setup.law, fluid.setup.pressure_floor, state.content, change);
     const double volume = state.volume + change, inverse = volume > 0 ? 1.0 / volume : 0.0;
     if (bears_differences(state)) {
       member_strains(fluid, g, state.volume, strains);
@@ -173,8 +180,8 @@ void set_group_donors(Fluid& fluid, double dt) {
 namespace {
 
 /// Shares of the group's mass that its members get: by volume, more below, and where a member is compressed by itself.
-/// The emptier a cell under half full, the more of that is evened out: all of it in an empty cell, nothing in a half-full
-/// one, which would be a cell of its own. So cells join and leave groups without a jolt.
+/// The emptier a cell under half full, the more of that is evened out: all of it in an empty cell, nothing in a
+/// half-full one, which would be a cell of its own. So cells join and leave groups without a jolt.
 std::vector<double> mass_shares(const Fluid& fluid, std::size_t g) {
   const Range range = members_of(fluid.groups, g);
   const double* compression = fluid.own_compression.data() + fluid.groups.first[g];
@@ -204,7 +211,8 @@ void mix_groups(Fluid& fluid) {
       }
     }
     if (!(volume > 0)) {
-      if (mass[0] + mass[1] > 0) throw FluidError("solids have closed the last room of " + std::to_string(mass[0] + mass[1]) + " kg of fluid");
+      if (mass[0] + mass[1] > 0)
+        throw FluidError("solids have closed the last room of " + std::to_string(mass[0] + mass[1]) + " kg of fluid");
       continue;
     }
     // From the leaves to the root: what a cell has too much goes through the face to its parent.

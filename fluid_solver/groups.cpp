@@ -119,7 +119,8 @@ class Builder {
     for (int pass = 0; pass < 64; ++pass) {
       std::vector<std::vector<std::int32_t>> sets(cells_.size());
       const std::size_t number = cells_.size();
-      for (std::size_t l = 0; l < number; ++l) sets[find(static_cast<std::int32_t>(l))].push_back(static_cast<std::int32_t>(l));
+      for (std::size_t l = 0; l < number; ++l)
+        sets[find(static_cast<std::int32_t>(l))].push_back(static_cast<std::int32_t>(l));
       bool changed = false;
       for (std::size_t s = 0; s < number; ++s) {
         if (sets[s].empty() || find(static_cast<std::int32_t>(s)) != static_cast<std::int32_t>(s)) continue;

@@ -6,10 +6,10 @@
 
 namespace polynya::fluid {
 
-/// Cells that are brought to one thermodynamic state, but for what each is compressed by itself (group_state.cpp). A cell under half full, before or after the step, joins the
-/// neighbour it is most open to, until the group holds at least half a cell: so cuts never shorten the stable step, and
-/// cells may appear and vanish. A small cell that solids have sealed off joins the nearest fluid through the wall: it
-/// keeps no state of its own, and its mass is never lost.
+/// Cells that are brought to one thermodynamic state, but for what each is compressed by itself (group_state.cpp). A
+/// cell under half full, before or after the step, joins the neighbour it is most open to, until the group holds at
+/// least half a cell: so cuts never shorten the stable step, and cells may appear and vanish. A small cell that solids
+/// have sealed off joins the nearest fluid through the wall: it keeps no state of its own, and its mass is never lost.
 struct Groups {
   struct Member {
     std::ptrdiff_t cell;

@@ -7,11 +7,11 @@
 namespace polynya::fluid {
 namespace {
 
-/// One component in a row of cells: the force on the corners along the four edges in x, lower ends in `lower` (4 rows of
-/// `width`, by y + 2 z), upper ends in `upper`. The part that no linear field can be: with sums s and differences d along
-/// x, d less its mean over the four edges, and of s what alternates in y and z.
-void edge_forces(const double* __restrict u, const double* __restrict coefficient, int count, std::ptrdiff_t sy, std::ptrdiff_t sz,
-                 std::ptrdiff_t width, double* __restrict lower, double* __restrict upper) {
+/// One component in a row of cells: the force on the corners along the four edges in x, lower ends in `lower` (4 rows
+/// of `width`, by y + 2 z), upper ends in `upper`. The part that no linear field can be: with sums s and differences d
+/// along x, d less its mean over the four edges, and of s what alternates in y and z.
+void edge_forces(const double* __restrict u, const double* __restrict coefficient, int count, std::ptrdiff_t sy,
+                 std::ptrdiff_t sz, std::ptrdiff_t width, double* __restrict lower, double* __restrict upper) {
   for (int i = 1; i <= count; ++i) {
     const double s0 = u[i] + u[i + 1], d0 = u[i] - u[i + 1];
     const double s1 = u[i + sy] + u[i + sy + 1], d1 = u[i + sy] - u[i + sy + 1];
@@ -43,12 +43,16 @@ void layer_force(Fluid& fluid, int k, bool add_below, bool add_above) {
     for (int j = 1; j <= grid.ny + 1; ++j) {
       const std::ptrdiff_t row = grid.at(0, j, k);
       double *lower = lower_of(j), *upper = lower + 4 * width;
-      if (j <= grid.ny) edge_forces(fluid.velocity[axis].data() + row, fluid.viscosity.data() + row, grid.nx, sy, sz, width, lower, upper);
-      else std::fill_n(lower, 8 * width, 0.0);
+      if (j <= grid.ny)
+        edge_forces(fluid.velocity[axis].data() + row, fluid.viscosity.data() + row, grid.nx, sy, sz, width, lower,
+                    upper);
+      else
+        std::fill_n(lower, 8 * width, 0.0);
       const double *low = lower_of(j - 1) + width, *up = low + 4 * width;  // the edges at higher y of the row before
       for (int above = 0; above < 2; ++above) {
         double* __restrict force = fluid.force[axis].data() + row + above * sz;
-        const double *l = lower + 2 * above * width, *u = upper + 2 * above * width, *lb = low + 2 * above * width, *ub = up + 2 * above * width;
+        const double *l = lower + 2 * above * width, *u = upper + 2 * above * width, *lb = low + 2 * above * width,
+                     *ub = up + 2 * above * width;
         if (above ? add_above : add_below) {
           for (int i = 1; i <= grid.nx + 1; ++i) force[i] += (l[i] + u[i - 1]) + (lb[i] + ub[i - 1]);
         } else {

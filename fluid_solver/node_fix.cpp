@@ -1,6 +1,6 @@
-// Nodes at and inside solids. A node that solid has nearly covered has next to no mass and would fly off: it follows its
-// neighbours. A node inside takes the velocity of the wall. Where all cells on one side of a node are solid,
-// the wall lies in or before the plane of those faces: closed faces exert no force on the node, so it takes the wall's
+// Nodes at and inside solids. A node that solid has nearly covered has next to no mass and would fly off: it follows
+// its neighbours. A node inside takes the velocity of the wall. Where all cells on one side of a node are solid, the
+// wall lies in or before the plane of those faces: closed faces exert no force on the node, so it takes the wall's
 // normal velocity; left alone it would meet the wall with a jolt as soon as the wall moves off the plane. The
 // difference of momentum goes to the body.
 #include <algorithm>
@@ -110,7 +110,8 @@ void fix_covered_nodes(Fluid& fluid) {
   };
   std::vector<Change> changes;
   fluid.wall_impulse.assign(fluid.after.walls.size(), {});
-  for (std::size_t w = 0; w < fluid.after.walls.size(); ++w) fluid.label[fluid.after.walls[w].cell] = static_cast<std::int32_t>(w);
+  for (std::size_t w = 0; w < fluid.after.walls.size(); ++w)
+    fluid.label[fluid.after.walls[w].cell] = static_cast<std::int32_t>(w);
   for (const std::ptrdiff_t n : fluid.after.nodes()) {
     const bool hidden = fluid.after.node_fraction[n] < covered;
     std::array<bool, 3> flat{};
@@ -121,7 +122,8 @@ void fix_covered_nodes(Fluid& fluid) {
     bool changed = hidden;
     if (hidden) {
       const auto mean = mean_of_neighbours(fluid, n);
-      for (int d = 0; d < 3; ++d) change.velocity[d] = mean ? (*mean)[d] : wall_speed(around, d).value_or(inner_velocity(around, d));
+      for (int d = 0; d < 3; ++d)
+        change.velocity[d] = mean ? (*mean)[d] : wall_speed(around, d).value_or(inner_velocity(around, d));
     }
     for (int axis = 0; axis < 3; ++axis) {
       if (!flat[axis]) continue;

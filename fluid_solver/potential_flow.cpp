@@ -1,8 +1,8 @@
-// The start: a body that moves from the first instant would send out a pressure of rho c V. Instead the water starts with
-// the velocity an impulse would have given it, were it incompressible: u = u0 - grad(impulse) / rho in the discrete sense,
-// with the impulse chosen so that no group of water cells changes its volume while the walls move. The impulse is 0 in
-// air and outside non-reflecting boundaries. The pressure that belongs to this flow about a steadily moving body is
-// Bernoulli's, rho (U.u - u^2/2), added to what is there.
+// The start: a body that moves from the first instant would send out a pressure of rho c V. Instead the water starts
+// with the velocity an impulse would have given it, were it incompressible: u = u0 - grad(impulse) / rho in the
+// discrete sense, with the impulse chosen so that no group of water cells changes its volume while the walls move. The
+// impulse is 0 in air and outside non-reflecting boundaries. The pressure that belongs to this flow about a steadily
+// moving body is Bernoulli's, rho (U.u - u^2/2), added to what is there.
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +13,8 @@ namespace {
 
 using Field = std::vector<double>;
 constexpr int most_iterations = 20000;
-/// A member of a group that is at least so full keeps its own impulse: the step's prediction also holds the members of a
-/// group to the walls' motion one by one, and a start that ignores it would begin with a jolt.
+/// A member of a group that is at least so full keeps its own impulse: the step's prediction also holds the members of
+/// a group to the walls' motion one by one, and a start that ignores it would begin with a jolt.
 constexpr double own_fill = 1e-4;
 constexpr double tolerance = 2e-5;  ///< of the norm of the walls' rates of volume
 
@@ -48,7 +48,8 @@ class Projection {
       rho = next;
     }
     if (iteration == most_iterations)
-      throw FluidError("the flow that the run starts with was not found in " + std::to_string(iteration) + " iterations");
+      throw FluidError("the flow that the run starts with was not found in " + std::to_string(iteration) +
+                       " iterations");
     give_kick(impulse);
     for (int d = 0; d < 3; ++d) {
       for (std::size_t n = 0; n < size; ++n) f_.velocity[d][n] += kick_[d][n];
@@ -164,7 +165,8 @@ class Projection {
     const double* p = impulse.data();
     for_rows(grid, 1, [&](int j, int k) {
       const std::ptrdiff_t row = grid.at(0, j, k);
-      const double *ax = f_.face_coefficient[0].data(), *ay = f_.face_coefficient[1].data(), *az = f_.face_coefficient[2].data();
+      const double *ax = f_.face_coefficient[0].data(), *ay = f_.face_coefficient[1].data(),
+                   *az = f_.face_coefficient[2].data();
       for (std::ptrdiff_t n = row + 1; n <= row + grid.nx + 1; ++n) {
         const auto sum = [&](const double* a, std::ptrdiff_t s, std::ptrdiff_t t1, std::ptrdiff_t t2) {
           const auto push = [&](std::ptrdiff_t face) { return a[face] * (p[face - s] - p[face]); };
@@ -249,7 +251,8 @@ void add_bernoulli_pressure(Fluid& fluid) {
     for (int corner = 0; corner < 8; ++corner) {
       const std::ptrdiff_t n = c + (corner & 1) + (corner & 2 ? grid.sy : 0) + (corner & 4 ? grid.sz : 0);
       weight += fluid.node_fraction[n];
-      for (int d = 0; d < 3; ++d) u[d] += fluid.node_fraction[n] * (fluid.velocity[d][n] - fluid.setup.ambient_velocity[d]);
+      for (int d = 0; d < 3; ++d)
+        u[d] += fluid.node_fraction[n] * (fluid.velocity[d][n] - fluid.setup.ambient_velocity[d]);
     }
     double value = 0;
     for (int d = 0; d < 3; ++d) {
