@@ -24,7 +24,9 @@ if(POLYNYA_NATIVE)
 endif()
 # Contraction to fused multiply-add is kept on; reassociation (-ffast-math) never.
 if(POLYNYA_SANITIZE)
-  target_compile_options(polynya_settings INTERFACE -fsanitize=${POLYNYA_SANITIZE} -fno-omit-frame-pointer)
+  # Instrumented code misleads gcc's search for uninitialised variables (in CGAL's headers, for one).
+  target_compile_options(polynya_settings INTERFACE
+    -fsanitize=${POLYNYA_SANITIZE} -fno-omit-frame-pointer -Wno-maybe-uninitialized)
   target_link_options(polynya_settings INTERFACE -fsanitize=${POLYNYA_SANITIZE})
 endif()
 

@@ -59,16 +59,32 @@ void member_strains(const Fluid& fluid, std::size_t g, double group_volume, std:
   for (double& one : strain) one += group_volume > 0 ? common / group_volume : 0.0;
 }
 
-/// Only water that fills its room bears differences of pressure inside a group.
+/// Water bears differences of pressure inside a group, and a member may cavitate beside one that does not.
 bool bears_differences(const GroupState& state) {
-  return state.volume > 0 && state.content.mass[air] == 0 && state.point.bulk_modulus > 0;
+  return state.content.mass[air] == 0 && state.content.mass[water] > void_density * state.volume;
+}
+
+bool cavitates(const GroupState& state) {
+  return bears_differences(state) && state.point.bulk_modulus <= 0;
 }
 
 /// How much more than its group a member is compressed by the weight of the fluid between them.
 double weight_compression(const Fluid& fluid, const GroupState& state, std::ptrdiff_t cell) {
-  if (!bears_differences(state)) return 0;
+  if (!bears_differences(state) || cavitates(state)) return 0;
   const double rho = (state.content.mass[0] + state.content.mass[1]) / state.volume;
   return rho * fluid.setup.gravity * (state.height - height_of(fluid.grid, cell)) / state.point.bulk_modulus;
+}
+
+/// The state of a member of a cavitating group by its own density: void in one cell is no reason for the next to give
+/// way. Were all given the mean, a void would hide the compression of its neighbours until the group parts, at once.
+void evaluate_cavitating_member(Fluid& fluid, const GroupState& state, std::ptrdiff_t cell, double share) {
+  const PointState own =
+      point_state(fluid.setup.law[water], fluid.setup.pressure_floor[water], share * state.content.mass[water],
+                  share * state.content.energy[water], state.volume);
+  fluid.pressure[cell] = own.pressure;
+  fluid.density[cell] = share * state.content.mass[water] / state.volume;
+  fluid.bulk_modulus[cell] = own.bulk_modulus;
+  fluid.sound_speed[cell] = own.sound_speed;
 }
 
 }  // namespace
@@ -102,7 +118,7 @@ void evaluate_groups(Fluid& fluid) {
     for (const auto& [c, parent] : members_of(fluid.groups, g)) {
       if (differs && fluid.before.volume[c] > 0)
         *compression = fluid.total_mass[c] / (rho * fluid.before.volume[c]) - 1.0 - weight_compression(fluid, state, c);
-      const double own = state.point.bulk_modulus * *compression++;
+      const double own = state.point.bulk_modulus * *compression;
       fluid.pressure[c] =
           filled ? state.point.pressure + rho * fluid.setup.gravity * (state.height - height_of(grid, c)) + own
           : state.volume > 0 ? fluid.setup.pressure_floor[water]
@@ -110,6 +126,8 @@ void evaluate_groups(Fluid& fluid) {
       fluid.density[c] = rho;
       fluid.bulk_modulus[c] = state.point.bulk_modulus;
       fluid.sound_speed[c] = state.point.sound_speed;
+      if (cavitates(state)) evaluate_cavitating_member(fluid, state, c, 1.0 + *compression);
+      ++compression;
       int i, j, k;
       grid.position(c, i, j, k);
       fluid.row_materials[static_cast<std::size_t>(j + (grid.ny + 3) * k)] |= static_cast<unsigned char>(held);
