@@ -45,10 +45,12 @@ void receive_ready(Conversation& conversation, const std::vector<std::string>& n
 }
 
 void begin_solids(Conversation& conversation, double step) {
-  for (const SolidSide& side : conversation.solids) {
+  for (SolidSide& side : conversation.solids) {
     exchange::Message begin("begin");
     begin.header["time"] = 0.0;
     begin.header["step"] = step;
+    if (!side.start_force.empty()) side.fluid_force = side.start_force;
+    add_loads(begin, side);
     conversation.hub.send(side.name, std::move(begin));
   }
 }
@@ -66,7 +68,8 @@ void receive_surfaces(Conversation& conversation, long window) {
 
 void send_loads(Conversation& conversation, const WindowEnd& end) {
   for (SolidSide& side : conversation.solids) {
-    exchange::Message loads = make_loads(side);
+    exchange::Message loads("loads");
+    add_loads(loads, side);
     if (const int threads = std::exchange(side.new_threads, 0)) loads.header["threads"] = threads;
     loads.header["window"] = end.window;
     loads.header["next_step"] = end.next_length;

@@ -61,6 +61,7 @@ void begin(Run& run, const std::vector<std::string>& names) {
     const exchange::Message answer = run.conversation.hub.receive(fluid.name, "pressure");
     fluid.stable_step = answer.header.at("stable_step").get<double>();
     fluid.account.set_initial(answer);
+    run.overlap->set_start_forces(run.conversation, read_pressure(answer, "pressure.", cells.cell.size()));
   }
   plan_next_span(run);
   run.keeper.step = run.keeper.length = run.planned_step;
@@ -70,6 +71,13 @@ void begin(Run& run, const std::vector<std::string>& names) {
   run.monitor.emplace(run.scene, run.folder, run.conversation);
   begin_balance(run, names);
   begin_solids(run.conversation, run.keeper.step);
+  // The first half step happens with the message, so its impulse is given and taken at once.
+  for (const SolidSide& side : run.conversation.solids) {
+    const int body = static_cast<int>(side.body);
+    for (std::size_t i = 0; i < side.start_force.size(); ++i)
+      for (auto* entry : {&run.ledger.fluid_given, &run.ledger.fluid_start, &run.ledger.fluid_taken})
+        (*entry)[body][i % 3] += 0.5 * run.keeper.step * side.start_force[i];
+  }
 }
 
 contact::Body as_contact_body(const SolidSide& side) {

@@ -56,6 +56,7 @@ std::vector<results::Column> ledger_columns() {
   };
   impulse("contact_impulse");
   impulse("fluid_given");
+  impulse("fluid_start");
   impulse("fluid_taken");
   impulse("fluid_outstanding");
   for (const char* body : bodies) columns.push_back({std::string("fluid_weight_") + body + "_z", "N s"});
@@ -83,6 +84,7 @@ void LedgerFile::append(double time, long window, double acting_time, const Ledg
   };
   add(ledger.contact_impulse);
   add(ledger.fluid_given);
+  add(ledger.fluid_start);
   add(ledger.fluid_taken);
   add(outstanding);
   row.insert(row.end(), ledger.fluid_weight.begin(), ledger.fluid_weight.end());

@@ -76,7 +76,8 @@ Balance balance(const Conversation& conversation, const Ledger& ledger, double a
     sum.numerical += side.account.change("step_change");
     sum.momentum += side.account.change("momentum_z") - side.account.change("boundary_impulse_z") -
                     side.account.change("gravity_impulse_z") + outstanding(side)[2] -
-                    ledger.fluid_weight[static_cast<int>(side.body)];
+                    ledger.fluid_weight[static_cast<int>(side.body)] -
+                    ledger.fluid_start[static_cast<int>(side.body)][2];
   }
   if (conversation.fluid) {
     const Account& fluid = conversation.fluid->account;

@@ -77,6 +77,15 @@ void OverlapExchange::give_impulses(Conversation& conversation, const WallPressu
   }
 }
 
+void OverlapExchange::set_start_forces(Conversation& conversation, const WallPressure& pressure) const {
+  for (SolidSide& side : conversation.solids) {
+    side.start_force.assign(3 * side.vertices(), 0.0);
+    const geometry::BodySurface surface{side.positions, side.velocities, side.triangles};
+    geometry::add_pressure_forces(now_.cells, cutter_.grid(), static_cast<std::int32_t>(side.body), surface,
+                                  pressure.value, pressure.gradient_z, side.start_force);
+  }
+}
+
 void OverlapExchange::give_wall_impulses(Conversation& conversation, std::span<const double> impulse,
                                          Ledger& ledger) const {
   using contact::norm;

@@ -23,6 +23,9 @@ class OverlapExchange {
   void give_impulses(Conversation& conversation, const WallPressure& at_start, const WallPressure& at_end, double span,
                      Ledger& ledger) const;
 
+  /// Remembers with the solids the forces of the fluid's pressure at time 0, which belongs to the last cut.
+  void set_start_forces(Conversation& conversation, const WallPressure& pressure) const;
+
   /// Adds impulses that the fluid gave to walls other than by pressure, [entries of the last cut][2][3] N s. They spread
   /// over the cell's pieces of wall by area.
   void give_wall_impulses(Conversation& conversation, std::span<const double> impulse, Ledger& ledger) const;

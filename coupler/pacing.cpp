@@ -47,6 +47,21 @@ double quiet_time(Run& run) {
   return std::min({time_apart(*vehicle, *ice, run.scene.run.gravity), until_frame, until_end});
 }
 
+/// The fluid's first answer comes at the end of span 1. Until then its pressure at time 0 acts on.
+void give_start_impulses(Run& run, double span) {
+  if (run.keeper.span > 1) return;
+  for (SolidSide& side : run.conversation.solids) {
+    const int body = static_cast<int>(side.body);
+    for (std::size_t i = 0; i < side.start_force.size(); ++i) {
+      const double impulse = span * side.start_force[i];
+      side.fluid_impulse[i] += impulse;
+      run.ledger.fluid_given[body][i % 3] += impulse;
+      run.ledger.fluid_start[body][i % 3] += impulse;
+    }
+    if (run.keeper.span == 1) side.start_force.clear();
+  }
+}
+
 }  // namespace
 
 void refresh_limits(Run& run) {
@@ -64,6 +79,7 @@ void plan_next_span(Run& run) {
   run.keeper.windows_left = plan.windows;
   run.keeper.span_start = run.keeper.time;
   watch_step(run);
+  give_start_impulses(run, plan.step * static_cast<double>(plan.windows));
 }
 
 void bound_lag(Run& run, const geometry::CutCells& cells) {

@@ -133,7 +133,7 @@ void read_surface(SolidSide& side, const exchange::Message& surface) {
   const std::vector<double> old_positions = side.positions;
   const std::vector<double> old_impulse = std::move(side.fluid_impulse);
   const std::vector<double> old_impedance = std::move(side.impedance), old_seen = std::move(side.seen_velocity),
-                            old_sum = std::move(side.velocity_sum);
+                            old_sum = std::move(side.velocity_sum), old_start = std::move(side.start_force);
   read_topology(side, surface);
   read_motion(side, surface);
   side.fluid_impulse.assign(3 * side.vertices(), 0.0);
@@ -141,6 +141,8 @@ void read_surface(SolidSide& side, const exchange::Message& surface) {
   const Renumbering renumbering(old_ids, side.ids);
   side.impedance = renumbering.carry(old_impedance, 6, std::vector<double>(6 * side.vertices(), 0.0));
   side.seen_velocity = renumbering.carry(old_seen, 3, side.velocities);
+  side.start_force.clear();
+  if (!old_start.empty()) side.start_force = renumbering.carry(old_start, 3, std::vector<double>(3 * side.vertices(), 0.0));
   std::vector<double> as_if_always_so = side.velocities;
   for (double& value : as_if_always_so) value *= side.sum_time;
   side.velocity_sum = renumbering.carry(old_sum, 3, std::move(as_if_always_so));
@@ -163,7 +165,7 @@ void SolidSide::restart_mean() {
   sum_time = 0;
 }
 
-exchange::Message make_loads(const SolidSide& side) {
+void add_loads(exchange::Message& message, const SolidSide& side) {
   std::vector<std::int64_t> vertices;
   std::vector<double> forces;
   for (std::size_t v = 0; v < side.vertices(); ++v) {
@@ -174,11 +176,9 @@ exchange::Message make_loads(const SolidSide& side) {
     vertices.push_back(static_cast<std::int64_t>(v));
     forces.insert(forces.end(), force, force + 3);
   }
-  exchange::Message loads("loads");
   const auto count = static_cast<std::int64_t>(vertices.size());
-  loads.add<std::int64_t>("load.vertices", {count}, vertices);
-  loads.add<double>("load.forces", {count, 3}, forces);
-  return loads;
+  message.add<std::int64_t>("load.vertices", {count}, vertices);
+  message.add<double>("load.forces", {count, 3}, forces);
 }
 
 }  // namespace polynya::coupler

@@ -31,6 +31,7 @@ struct SolidSide {
   std::vector<double> contact_force;     ///< N, of this window
   std::vector<double> fluid_force;       ///< N, of this window
   std::vector<double> fluid_impulse;     ///< N s, given by the fluid and not yet handed on
+  std::vector<double> start_force;       ///< N, of the fluid at time 0; empty once the fluid's answers have come
   std::vector<double> impedance;         ///< [nv][6] kg/s: xx, yy, zz, xy, yz, zx; resistance of the fluid to a vertex
   std::vector<double> seen_velocity;     ///< m/s, mean over the span that the fluid answered last
   std::vector<double> velocity_sum;      ///< m, integral of the velocity over the current span so far
@@ -54,7 +55,7 @@ void add_fluid_impulses(SolidSide& side, std::span<const std::int64_t> ids, std:
 /// Takes over the surface of a new window; what is known of the fluid at a vertex follows it by its id.
 void read_surface(SolidSide& side, const exchange::Message& surface);
 
-/// Loads of this window: contact plus fluid forces of all vertices where they are not zero.
-exchange::Message make_loads(const SolidSide& side);
+/// Adds the loads of this window: contact plus fluid forces of all vertices where they are not zero.
+void add_loads(exchange::Message& message, const SolidSide& side);
 
 }  // namespace polynya::coupler

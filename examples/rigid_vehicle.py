@@ -15,7 +15,7 @@ import numpy as np
 import zmq
 
 ACCOUNT = ["kinetic", "gravity_work", "momentum_z", "gravity_impulse_z", "mass", "centre_of_mass_z"]
-STABLE_STEP = 1e300  # s: a rigid body takes any step
+STABLE_STEP = 1e300  # s: a rigid body takes any step, so a free window is one like the others
 
 
 class Coupler:
@@ -122,26 +122,25 @@ def main():
     with open(options.scene) as file, open(os.path.join(options.out, "vehicle_surface.json")) as hull:
         scene, surface = json.load(file), json.load(hull)
     body = RigidBody(surface, scene["symmetry"], scene["vehicle"]["speed"], scene["run"]["gravity"])
-    zeros = np.zeros(len(body.arms))
     topology = {"surface.ids": np.array(surface["ids"], "i8"), "surface.masses": np.array(surface["masses"]),
-                "surface.triangles": np.array(surface["triangles"], "i4"), "surface.radius": zeros,
-                "surface.volume": zeros}
+                "surface.triangles": np.array(surface["triangles"], "i4"),
+                **dict.fromkeys(("surface.radius", "surface.volume"), np.zeros(len(body.arms)))}
     coupler = Coupler(options.connect, options.run, options.name)
-    # Any step will do, so a free window is a step like the others.
     coupler.send("ready", {**body.state(), **topology}, role="solid", body="vehicle", stable_step=STABLE_STEP,
                  can_subdivide=True, account=ACCOUNT)
-    begin, _ = coupler.receive("begin")
-    time, dt, window, finish = begin["time"], begin["step"], 0, False
-    body.push(np.zeros_like(body.arms), 0, dt)
-    while not finish:
-        body.advance(dt)
-        time += dt
-        coupler.send("surface", body.state(), window=window, time=time, stable_step=STABLE_STEP, topology_changed=False)
-        loads, arrays = coupler.receive("loads")
+    loads, arrays = coupler.receive("begin")
+    time, dt, next_dt, window = loads["time"], 0, loads["step"], 0
+    while True:
         forces = np.zeros_like(body.arms)
         forces[arrays["load.vertices"]] = arrays["load.forces"]
-        body.push(forces, dt, loads["next_step"])
-        dt, finish, window = loads["next_step"], loads["finish"], window + 1
+        body.push(forces, dt, next_dt)
+        if loads.get("finish"):
+            break
+        dt, time = next_dt, time + next_dt
+        body.advance(dt)
+        coupler.send("surface", body.state(), window=window, time=time, stable_step=STABLE_STEP, topology_changed=False)
+        loads, arrays = coupler.receive("loads")
+        next_dt, window = loads["next_step"], window + 1
     coupler.send("finished", steps=window, speed=body.velocity[2])
     coupler.receive("bye")
 

@@ -60,18 +60,21 @@ def main(endpoint, run, name):
     coupler = Coupler(endpoint, run, name)
     coupler.send("ready", {"account": account(), "positions": x, "velocities": v, **topology}, role="solid",
                  body="vehicle", stable_step=STABLE_STEP, account=["kinetic", "mass", "momentum_z"])
-    begin, _ = coupler.receive("begin")
-    time, step, window, finish = begin["time"], begin["step"], 0, False
-    while not finish:
+    loads, arrays = coupler.receive("begin")
+    time, step, next_step, window = loads["time"], 0, loads["step"], 0
+    while True:
+        forces = np.zeros_like(x)
+        forces[arrays["load.vertices"]] = arrays["load.forces"]
+        v += 0.5 * (step + next_step) * forces / masses[:, None]
+        if loads.get("finish"):
+            break
+        step = next_step
         x += step * v
         time += step
         coupler.send("surface", {"positions": x, "velocities": v, "account": account()}, window=window, time=time,
                      stable_step=STABLE_STEP, topology_changed=False)
         loads, arrays = coupler.receive("loads")
-        forces = np.zeros_like(x)
-        np.add.at(forces, arrays["load.vertices"], arrays["load.forces"])
-        v += 0.5 * (step + loads["next_step"]) * forces / masses[:, None]
-        step, finish, window = loads["next_step"], loads["finish"], window + 1
+        next_step, window = loads["next_step"], window + 1
     coupler.send("finished", windows=window)
     coupler.receive("bye")
 

@@ -1,8 +1,9 @@
 // Nodes at and inside solids. A node that solid has nearly covered has next to no mass and would fly off: it follows
-// its neighbours. A node inside takes the velocity of the wall. Where all cells on one side of a node are solid, the
-// wall lies in or before the plane of those faces: closed faces exert no force on the node, so it takes the wall's
-// normal velocity; left alone it would meet the wall with a jolt as soon as the wall moves off the plane. The
-// difference of momentum goes to the body.
+// its neighbours. A node inside takes the velocity of the wall. Where all cells on one side of a node are solid and the
+// wall is nearly flat, it lies in or before the plane of those faces: closed faces exert no force on the node, so it
+// takes the wall's normal velocity; left alone it would meet the wall with a jolt as soon as the wall moves off the
+// plane. Beside an oblique wall the plane of faces closes cell by cell while the water moves outwards with the wall: to
+// stop it there would be a blow. The difference of momentum goes to the body.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -13,6 +14,7 @@ namespace polynya::fluid {
 namespace {
 
 constexpr double covered = 0.02;
+constexpr double nearly_flat = 0.98;  ///< cosine of the angle between a wall's normal and the axis
 
 /// The pieces of wall in the cells around a node; null where there is none.
 using WallsAround = std::array<const WallPiece*, 8>;
@@ -27,23 +29,44 @@ WallsAround walls_around(const Fluid& fluid, std::ptrdiff_t node) {
   return around;
 }
 
-/// Velocity of the wall along an axis: of the piece around the node with the largest area that way.
-std::optional<double> wall_speed(const WallsAround& around, int axis) {
-  double largest = 0;
-  std::optional<double> speed;
+/// The walls around a node taken together.
+struct MeanWall {
+  std::array<double, 3> normal{}, velocity{};
+};
+std::optional<MeanWall> mean_wall(const WallsAround& around) {
+  MeanWall mean;
+  double sum = 0;
   for (const WallPiece* wall : around) {
     for (int body = 0; wall && body < 2; ++body) {
-      const double area = std::abs(wall->area[body][axis]);
-      if (area <= largest) continue;
-      largest = area;
-      speed = wall->velocity[body][axis];
+      const auto& a = wall->area[body];
+      const double size = std::hypot(a[0], a[1], a[2]);
+      sum += size;
+      for (int d = 0; d < 3; ++d) {
+        mean.normal[d] += a[d];
+        mean.velocity[d] += size * wall->velocity[body][d];
+      }
     }
   }
-  return speed;
+  const double size = std::hypot(mean.normal[0], mean.normal[1], mean.normal[2]);
+  if (!(size > 0)) return {};
+  for (int d = 0; d < 3; ++d) {
+    mean.normal[d] /= size;
+    mean.velocity[d] /= sum;
+  }
+  return mean;
 }
 
-/// Velocity of the first piece there is: of a cell inside solid, where no area tells more.
-double inner_velocity(const WallsAround& around, int axis) {
+/// Sets the component along the axis so that the node does not move through the wall.
+void follow_wall(const MeanWall& wall, int axis, std::array<double, 3>& velocity) {
+  double along = 0;
+  for (int d = 0; d < 3; ++d) along += (velocity[d] - wall.velocity[d]) * wall.normal[d];
+  velocity[axis] -= along / wall.normal[axis];
+}
+
+/// Velocity of solid around a node: of its walls, or of the first piece there is (of a cell inside solid, where no area
+/// tells more).
+double speed_inside(const WallsAround& around, int axis) {
+  if (const auto wall = mean_wall(around)) return wall->velocity[axis];
   for (const WallPiece* wall : around) {
     if (wall) return wall->velocity[0][axis];
   }
@@ -90,7 +113,7 @@ std::optional<std::array<double, 3>> mean_of_neighbours(const Fluid& fluid, std:
   std::array<double, 3> sum{};
   for (int axis = 0; axis < 3; ++axis) {
     for (const std::ptrdiff_t other : {n - fluid.grid.stride(axis), n + fluid.grid.stride(axis)}) {
-      if (free[other] < covered || fluid.node_mass[other] <= 0) continue;
+      if (free[other] <= free[n] || fluid.node_mass[other] <= 0) continue;
       weight += free[other];
       for (int d = 0; d < 3; ++d) sum[d] += free[other] * fluid.velocity[d][other];
     }
@@ -122,13 +145,12 @@ void fix_covered_nodes(Fluid& fluid) {
     bool changed = hidden;
     if (hidden) {
       const auto mean = mean_of_neighbours(fluid, n);
-      for (int d = 0; d < 3; ++d)
-        change.velocity[d] = mean ? (*mean)[d] : wall_speed(around, d).value_or(inner_velocity(around, d));
+      for (int d = 0; d < 3; ++d) change.velocity[d] = mean ? (*mean)[d] : speed_inside(around, d);
     }
     for (int axis = 0; axis < 3; ++axis) {
       if (!flat[axis]) continue;
-      if (const auto speed = wall_speed(around, axis)) {
-        change.velocity[axis] = *speed;
+      if (const auto wall = mean_wall(around); wall && std::abs(wall->normal[axis]) > nearly_flat) {
+        follow_wall(*wall, axis, change.velocity);
         changed = true;
       }
     }

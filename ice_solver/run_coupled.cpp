@@ -127,13 +127,17 @@ void run_coupled(IceRun& run, exchange::Participant& participant) {
   IceSurface surface = surface_of(ice);
   IceFrames frames(run.folder);
   double dt = 0;
+  std::vector<double> node_loads, particle_loads;
   {
     const auto lap = ice.watch.lap("messages");
     participant.send(ready_message(ice, surface));
-    dt = participant.receive("begin").header.at("step").get<double>();
+    const Message begin = participant.receive("begin");
+    dt = begin.header.at("step").get<double>();
+    distribute_loads(ice, surface, begin.view<std::int64_t>("load.vertices"), begin.view<double>("load.forces"),
+                     node_loads, particle_loads);
   }
   internal_forces(ice, 0);
-  advance_velocities(ice, {}, {}, 0, dt);
+  advance_velocities(ice, node_loads, particle_loads, 0, dt);
   spdlog::info("begins with a step of {:.3e} s", dt);
   for (long window = 0; dt > 0; ++window) {
     advance_positions(ice, dt);

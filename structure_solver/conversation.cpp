@@ -57,10 +57,10 @@ void read_loads(const exchange::Message& loads, std::vector<double>& hull_force)
   const auto vertices = loads.view<std::int64_t>("load.vertices");
   const auto forces = loads.view<double>("load.forces");
   if (forces.size() != 3 * vertices.size())
-    throw exchange::ProtocolError("message 'loads': array 'load.forces' does not hold three values per vertex");
+    throw exchange::ProtocolError("message '" + loads.kind() + "': array 'load.forces' does not hold three values per vertex");
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (vertices[i] < 0 || 3 * static_cast<std::size_t>(vertices[i]) >= hull_force.size())
-      throw exchange::ProtocolError("message 'loads': array 'load.vertices' names vertex " +
+      throw exchange::ProtocolError("message '" + loads.kind() + "': array 'load.vertices' names vertex " +
                                     std::to_string(vertices[i]) + ", the hull has " +
                                     std::to_string(hull_force.size() / 3));
     for (int c = 0; c < 3; ++c) hull_force[3 * vertices[i] + c] += forces[3 * i + c];
@@ -110,8 +110,13 @@ void run_coupled(BuiltVehicle& vehicle, double step_factor, exchange::Participan
   }
   double time = begin.header.value("time", 0.0), dt = positive_step(begin, "step");
   std::vector<double> hull_force(3 * body.hull_vertices());
+  read_loads(begin, hull_force);
+  if (!begin.view<std::int64_t>("load.vertices").empty()) {
+    const auto lap = output.watch().lap("equilibrium");
+    body.settle(hull_force);
+  }
   body.internal_forces(0);
-  body.finish_step({}, 0, dt);
+  body.finish_step(hull_force, 0, dt);
   account = body.account();
 
   compute::Stopwatch& watch = output.watch();

@@ -1,6 +1,11 @@
 #include "structure_solver/deformable_vehicle.hpp"
 
+#include <cmath>
+#include <numbers>
+#include <utility>
+
 #include "core/compute/parallel.hpp"
+#include "structure_solver/equilibrium.hpp"
 
 namespace polynya::structure {
 namespace {
@@ -31,10 +36,42 @@ DeformableVehicle::DeformableVehicle(const geometry::VehicleMesh& mesh, const co
     weight_[3 * i + 2] = -gravity_ * solid_.masses[i];
   }
   initial_centre_z_ = centre_of_mass_z();
+  const double youngs_modulus = 9 * law.bulk_modulus * law.shear_modulus / (3 * law.bulk_modulus + law.shear_modulus);
+  wave_time_ = launch.length / std::sqrt(youngs_modulus / law.density);
   external_ = weight_;
   // A step of no length settles the account of the start: kinetic energy is there before the first window.
   continuum::internal_forces(solid_, 0);
   continuum::advance_velocities(solid_, external_, 0, 0);
+}
+
+void DeformableVehicle::settle(std::span<const double> hull_force) {
+  std::vector<double> loads = weight_;
+  add_hull_force(hull_force, loads);
+  bring_into_equilibrium(solid_, loads);
+  start_damping_ = {2 * std::numbers::pi / wave_time_, solid_.time + 2 * wave_time_};
+}
+
+void DeformableVehicle::add_start_damping() {
+  damping_force_.clear();
+  const double rate = start_damping_.at(solid_.time);
+  if (rate == 0) return;
+  int held = 0;
+  for (const std::uint8_t bits : solid_.fixed) held |= bits;
+  damping_force_.resize(external_.size());
+  for (std::size_t a = 0; a < 3; ++a) {
+    double momentum = 0;
+    for (std::size_t i = 0; i < solid_.node_count(); ++i) momentum += solid_.masses[i] * solid_.velocities[3 * i + a];
+    const double mean = held >> a & 1 ? 0.0 : momentum / mass_;
+    for (std::size_t i = 0; i < solid_.node_count(); ++i)
+      damping_force_[3 * i + a] = -rate * solid_.masses[i] * (solid_.velocities[3 * i + a] - mean);
+  }
+  for (std::size_t i = 0; i < external_.size(); ++i) external_[i] += damping_force_[i];
+}
+
+double DeformableVehicle::damped_power() const {
+  double power = 0;
+  for (std::size_t i = 0; i < damping_force_.size(); ++i) power -= damping_force_[i] * solid_.velocities[i];
+  return power;
 }
 
 void DeformableVehicle::advance_positions(double dt) {
@@ -45,13 +82,19 @@ void DeformableVehicle::internal_forces(double dt) {
   continuum::internal_forces(solid_, dt);
 }
 
+void DeformableVehicle::add_hull_force(std::span<const double> hull_force, std::vector<double>& nodal_force) const {
+  for (std::size_t v = 0; v < hull_nodes_.size(); ++v)
+    for (int a = 0; a < 3; ++a) nodal_force[3 * hull_nodes_[v] + a] += hull_force[3 * v + a];
+}
+
 void DeformableVehicle::finish_step(std::span<const double> hull_force, double dt_previous, double dt_next) {
   external_ = weight_;
-  if (!hull_force.empty())
-    for (std::size_t v = 0; v < hull_nodes_.size(); ++v)
-      for (int a = 0; a < 3; ++a) external_[3 * hull_nodes_[v] + a] += hull_force[3 * v + a];
+  if (!hull_force.empty()) add_hull_force(hull_force, external_);
   gravity_impulse_ -= 0.5 * (dt_previous + dt_next) * mass_ * gravity_;
+  add_start_damping();
+  damped_energy_ += std::exchange(pending_damped_energy_, 0.0) + 0.5 * dt_previous * damped_power();
   continuum::advance_velocities(solid_, external_, dt_previous, dt_next);
+  pending_damped_energy_ = 0.5 * dt_next * damped_power();
 }
 
 double DeformableVehicle::stable_step() const {
@@ -70,13 +113,13 @@ Account DeformableVehicle::account() const {
   a.kinetic = energy.kinetic;
   a.internal = energy.internal;
   a.hourglass = energy.hourglass;
-  a.viscous = energy.viscous;
+  a.viscous = energy.viscous + damped_energy_;
   a.step_change = energy.step_change;
   a.mass = mass_;
   a.centre_of_mass_z = centre_of_mass_z();
   // The force of gravity is constant, so its work is the potential difference to rounding; the rest is the loads'.
   a.gravity_work = -mass_ * gravity_ * (a.centre_of_mass_z - initial_centre_z_);
-  a.external_work = energy.external_work - a.gravity_work;
+  a.external_work = energy.external_work - a.gravity_work + damped_energy_;
   for (int c = 0; c < 3; ++c)
     a.momentum[c] = compute::ordered_sum(solid_.node_count(), node_chunk, [&](std::size_t i) {
       return solid_.masses[i] * solid_.velocities[3 * i + c];

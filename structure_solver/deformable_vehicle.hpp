@@ -15,11 +15,20 @@ struct Launch {
   double element_size = 0;   ///< m
 };
 
+/// A flow that is started does not quite keep the pressure it starts with, least behind a flat base, and a body that
+/// settled under that pressure would ring. So motion relative to the rigid body's is damped, critically for the gravest
+/// longitudinal mode, fading until a stress wave could have run to and fro.
+struct StartDamping {
+  double rate = 0, until = 0;  ///< 1/s at time 0; s
+  double at(double time) const { return time < until ? rate * (1 - time / until) : 0; }
+};
+
 /// An elastic vehicle of one-point hexahedra; nodes on planes of symmetry slide in them.
 class DeformableVehicle final : public VehicleBody {
  public:
   DeformableVehicle(const geometry::VehicleMesh& mesh, const continuum::Elastic& law, const Launch& launch);
 
+  void settle(std::span<const double> hull_force) override;
   void advance_positions(double dt) override;
   void internal_forces(double dt) override;
   void finish_step(std::span<const double> hull_force, double dt_previous, double dt_next) override;
@@ -34,12 +43,19 @@ class DeformableVehicle final : public VehicleBody {
 
  private:
   double centre_of_mass_z() const;
+  void add_start_damping();
+  /// Power that the start's damping takes out, W.
+  double damped_power() const;
+  void add_hull_force(std::span<const double> hull_force, std::vector<double>& nodal_force) const;
 
   continuum::ExplicitSolid solid_;
   std::vector<std::int32_t> hull_nodes_;
   StressProbe probe_;
   double gravity_ = 0, mass_ = 0, initial_centre_z_ = 0, gravity_impulse_ = 0;
-  std::vector<double> weight_, external_;  ///< [n][3], N
+  StartDamping start_damping_;
+  double wave_time_ = 0;                             ///< s, of a stress wave along the body
+  double damped_energy_ = 0, pending_damped_energy_ = 0;  ///< J; of the step that has begun
+  std::vector<double> weight_, external_, damping_force_;  ///< [n][3], N; damping empty when over
 };
 
 }  // namespace polynya::structure

@@ -14,6 +14,7 @@ class RigidVehicle final : public VehicleBody {
   RigidVehicle(const geometry::VehicleMesh& mesh, std::span<const double> node_masses, geometry::Portion portion,
                const Launch& launch);
 
+  void settle(std::span<const double>) override {}
   void advance_positions(double dt) override;
   void internal_forces(double) override {}
   void finish_step(std::span<const double> hull_force, double dt_previous, double dt_next) override;

@@ -68,10 +68,13 @@ inline constexpr int station_count = 6;
 /// The vehicle as the coupling sees it: an outer hull whose vertices move and carry loads.
 ///
 /// One window:  advance_positions(dt); internal_forces(dt); finish_step(loads, dt, dt_next).
-/// The start:   internal_forces(0); finish_step({}, 0, dt).
+/// The start:   internal_forces(0); finish_step(loads, 0, dt), after settle(loads) if it begins under load.
 class VehicleBody {
  public:
   virtual ~VehicleBody() = default;
+  /// Brings the stress into equilibrium with loads that act from the start ([hull vertices][3] in N); the shape that the
+  /// body has is its shape under these loads. Throws std::runtime_error if none is found.
+  virtual void settle(std::span<const double> hull_force) = 0;
   /// x(n+1) = x(n) + dt v(n+1/2)
   virtual void advance_positions(double dt) = 0;
   virtual void internal_forces(double dt) = 0;

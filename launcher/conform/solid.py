@@ -17,6 +17,7 @@ PUSHED = range(1, 4)                  # windows whose loads push
 CRUSH_SPEED = 1000.0                  # m/s that loads give to one vertex of ice that may break
 MOST_WINDOWS = 60                     # until it breaks
 BODIES = {"structure": "vehicle", "ice": "ice"}
+NO_LOADS = {"load.vertices": numpy.zeros(0, "i8"), "load.forces": numpy.zeros((0, 3))}
 
 
 class Solid:
@@ -42,7 +43,7 @@ class Solid:
         self.account = Account(ready, self.findings)
         self.talk.expect_silence(greeting.BEFORE_ANSWER, SECTION, "'begin'")
         self.step = self.next_step()
-        self.talk.send("begin", {"time": 0.0, "step": self.step})
+        self.talk.send("begin", {"time": 0.0, "step": self.step}, NO_LOADS)
 
     def next_step(self) -> float:
         return STEPS[self.window % len(STEPS)] * min(self.stable, LONGEST_STEP)
