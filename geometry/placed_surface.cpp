@@ -119,7 +119,6 @@ void PlacedSurface::place_vertices(const BodySurface& surface, const std::array<
     auto& coincidences = coincidences_[begin / vertex_chunk];
     for (std::size_t v = begin; v < end; ++v) {
       Corner& corner = corners_[v];
-      corner.planes = 0;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double x = surface.positions[3 * v + axis];
         if (!std::isfinite(x)) {
