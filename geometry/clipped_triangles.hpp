@@ -10,7 +10,7 @@
 namespace polynya::geometry {
 
 inline constexpr std::size_t triangle_chunk = 512;
-inline constexpr std::size_t column_chunk = 64;  ///< columns are numbered i + (nx + 1) * j
+inline constexpr std::size_t column_chunk = 128;  ///< columns are numbered i + (nx + 1) * j
 
 /// The records of one chunk of triangles, and which of them lie in which chunk of columns.
 struct ClippedChunk {

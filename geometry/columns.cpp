@@ -7,8 +7,9 @@
 namespace polynya::geometry {
 namespace {
 
-constexpr double negligible = 1e-12;       // of a cell or face: rounding
-constexpr double negligible_wall = 1e-14;  // of the sum of a cell's face areas
+constexpr double negligible = 1e-12;        // of a cell or face: rounding
+constexpr std::size_t prefetch_ahead = 16;  // records
+constexpr double negligible_wall = 1e-14;   // of the sum of a cell's face areas
 
 double snapped(double fraction) {
   if (std::abs(fraction) < negligible) return 0.0;
@@ -63,8 +64,19 @@ class ColumnWalk {
   bool gather() {
     highest_ = -1;
     for (std::size_t b = 0; b < bodies_.size(); ++b)
-      for (const PieceRecord* piece : records(b)) add(*piece, b);
+      for (PieceRecord*& piece : records(b)) {
+        prefetch(static_cast<std::size_t>(&piece - chunk_.record.data()) + prefetch_ahead);
+        add(*piece, b);
+      }
     return highest_ >= 0;
+  }
+
+  /// The records of a column lie apart from one another, and waiting for them is most of the work.
+  void prefetch(std::size_t record) const {
+    if (record >= chunk_.record.size()) return;
+    const char* piece = reinterpret_cast<const char*>(chunk_.record[record]);
+    __builtin_prefetch(piece);
+    __builtin_prefetch(piece + sizeof(PieceRecord) / 2);
   }
 
   void clear_sums() {
