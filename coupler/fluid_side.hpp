@@ -17,9 +17,9 @@ struct WallPressure {
 
 /// What the fluid gave to the walls during a span.
 struct FluidAnswer {
-  WallPressure at_start, at_end;      ///< of the cut before and of the last one
-  std::span<const double> impulse;    ///< [entries of the last cut][2][3] N s, given otherwise than by pressure; spreads
-                                      ///< over a cell's pieces of wall by area. May be empty
+  WallPressure at_start, at_end;    ///< of the cut before and of the last one
+  std::span<const double> impulse;  ///< [entries of the last cut][2][3] N s, given otherwise than by pressure; spreads
+                                    ///< over a cell's pieces of wall by area. May be empty
   std::span<const double> impedance;  ///< [entries of the last cut] kg/(m^2 s), at each cell's wall. May be empty
 };
 
