@@ -147,18 +147,17 @@ void take_fluid_loads(Run& run, const exchange::Message& answer) {
     fluid.account.set_initial(answer);
     return;
   }
-  const WallPressure at_start = read_pressure(answer, "pressure.previous_", run.overlap->before().cell.size());
-  const WallPressure at_end = read_pressure(answer, "pressure.", cells.cell.size());
-  run.overlap->give_impulses(run.conversation, at_start, at_end, length, run.ledger);
-  if (answer.has("pressure.impulse"))
-    run.overlap->give_wall_impulses(run.conversation, answer.view<double>("pressure.impulse"), run.ledger);
-  if (answer.has("pressure.impedance"))
-    run.overlap->set_impedance(run.conversation, answer.view<double>("pressure.impedance"));
+  FluidAnswer given;
+  given.at_start = read_pressure(answer, "pressure.previous_", run.overlap->before().cell.size());
+  given.at_end = read_pressure(answer, "pressure.", cells.cell.size());
+  if (answer.has("pressure.impulse")) given.impulse = answer.view<double>("pressure.impulse");
+  if (answer.has("pressure.impedance")) given.impedance = answer.view<double>("pressure.impedance");
+  run.overlap->take(run.conversation, given, length, run.ledger);
   // Where elements broke away, lighter nodes meet the water now.
   if (run.topology_changed) bound_lag(run, cells);
   run.topology_changed = false;
   run.ledger.fluid_reported = {fluid.account.change("impulse_vehicle_z"), fluid.account.change("impulse_ice_z")};
-  run.monitor->note_pressure(cells, fluid.grid, at_end);
+  run.monitor->note_pressure(cells, fluid.grid, given.at_end);
 }
 
 /// Force of the fluid on a vertex that moves otherwise than the fluid has seen: sound carries the difference away.

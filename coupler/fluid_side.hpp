@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,14 @@ namespace polynya::coupler {
 struct WallPressure {
   std::vector<double> value;       ///< [entries], Pa
   std::vector<double> gradient_z;  ///< [entries], Pa/m: p(z) = value - gradient_z (z - z of the cell's centre)
+};
+
+/// What the fluid gave to the walls during a span.
+struct FluidAnswer {
+  WallPressure at_start, at_end;    ///< of the cut before and of the last one
+  std::span<const double> impulse;  ///< [entries of the last cut][2][3] N s, given otherwise than by pressure; spreads
+                                    ///< over a cell's pieces of wall by area. May be empty
+  std::span<const double> impedance;  ///< [entries of the last cut] kg/(m^2 s), at each cell's wall. May be empty
 };
 
 /// What the coupler knows of the fluid participant.

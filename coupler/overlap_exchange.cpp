@@ -1,9 +1,20 @@
 #include "coupler/overlap_exchange.hpp"
 
+#include <utility>
+
+#include "core/compute/parallel.hpp"
 #include "core/contact/vector3.hpp"
 #include "geometry/exact_cut.hpp"
 
 namespace polynya::coupler {
+namespace {
+
+/// Where a body's wall of a cell stands in arrays [entries][bodies].
+std::size_t at_wall(const geometry::WallPiece& piece) {
+  return static_cast<std::size_t>(piece.entry) * body_count + static_cast<std::size_t>(piece.body);
+}
+
+}  // namespace
 
 OverlapExchange::OverlapExchange(const FluidSide& fluid, bool debris_displaces_fluid, double atmospheric_pressure)
     : cutter_(fluid.grid),
@@ -44,87 +55,101 @@ const geometry::CutCells& OverlapExchange::cut(const Conversation& conversation,
   return now_.cells;
 }
 
-void OverlapExchange::give(SolidSide& side, const Cut& cut, std::int32_t index, const WallPressure& pressure,
-                           double factor, Ledger& ledger) const {
-  const Cut::Surface* surface = nullptr;
-  for (const Cut::Surface& candidate : cut.surfaces)
-    if (candidate.body == side.body) surface = &candidate;
-  if (!surface) return;
-  std::vector<double> impulses(surface->positions.size(), 0.0);
-  geometry::add_pressure_forces(cut.cells, cutter_.grid(), index, surface->view(), pressure.value, pressure.gradient_z,
-                                impulses);
-  for (double& value : impulses) value *= factor;
-  double pressure_alone = 0, open_area = 0;
-  for (std::size_t e = 0; e < cut.cells.cell.size(); ++e) {
-    const double area = cut.cells.wall_area[(e * body_count + static_cast<std::size_t>(index)) * 3 + 2];
-    pressure_alone += pressure.value[e] * area;
-    open_area += area;
-  }
-  double vertical = 0;
-  for (std::size_t i = 2; i < impulses.size(); i += 3) vertical += impulses[i];
-  ledger.fluid_weight[index] += vertical - factor * pressure_alone;
-  ledger.fluid_atmosphere[index] += factor * atmospheric_pressure_ * open_area;
-  for (std::size_t i = 0; i < impulses.size(); ++i) ledger.fluid_given[static_cast<int>(side.body)][i % 3] += impulses[i];
-  add_fluid_impulses(side, surface->ids, surface->positions, impulses);
-}
-
-void OverlapExchange::give_impulses(Conversation& conversation, const WallPressure& at_start,
-                                    const WallPressure& at_end, double span, Ledger& ledger) const {
+void OverlapExchange::take(Conversation& conversation, const FluidAnswer& answer, double span, Ledger& ledger) const {
+  std::vector<geometry::WallForces> at_start, at_end;
+  PerBody carried, impedance;
+  // Four sums over the pieces of wall, of which none needs another.
+  compute::for_chunks(4, 1, [&](std::size_t sum, std::size_t) {
+    const auto forces = [](const Cut& cut, const WallPressure& pressure) {
+      return geometry::pressure_forces(cut.cells, cut.views(), pressure.value, pressure.gradient_z);
+    };
+    if (sum == 0) at_start = forces(before_, answer.at_start);
+    if (sum == 1 && !answer.impedance.empty()) impedance = impedances(conversation, answer.impedance);
+    if (sum == 2) at_end = forces(now_, answer.at_end);
+    if (sum == 3 && !answer.impulse.empty()) carried = wall_impulses(conversation, answer.impulse);
+  });
+  book(conversation, before_, at_start, 0.5 * span, ledger);
+  book(conversation, now_, at_end, 0.5 * span, ledger);
   for (SolidSide& side : conversation.solids) {
-    const auto body = static_cast<std::int32_t>(side.body);
-    give(side, before_, body, at_start, 0.5 * span, ledger);
-    give(side, now_, body, at_end, 0.5 * span, ledger);
+    const auto body = static_cast<std::size_t>(side.body);
+    for (std::size_t i = 0; i < carried[body].size(); ++i) {
+      side.fluid_impulse[i] += carried[body][i];
+      ledger.fluid_given[body][i % 3] += carried[body][i];
+      if (i % 3 == 2) ledger.fluid_carried[body] += carried[body][i];
+    }
+    if (!impedance[body].empty()) side.impedance = std::move(impedance[body]);
   }
 }
 
 void OverlapExchange::set_start_forces(Conversation& conversation, const WallPressure& pressure) const {
-  for (SolidSide& side : conversation.solids) {
-    side.start_force.assign(3 * side.vertices(), 0.0);
-    const geometry::BodySurface surface{side.positions, side.velocities, side.triangles};
-    geometry::add_pressure_forces(now_.cells, cutter_.grid(), static_cast<std::int32_t>(side.body), surface,
-                                  pressure.value, pressure.gradient_z, side.start_force);
-  }
+  std::vector<geometry::WallForces> forces =
+      geometry::pressure_forces(now_.cells, now_.views(), pressure.value, pressure.gradient_z);
+  for (SolidSide& side : conversation.solids)
+    side.start_force = std::move(forces[static_cast<std::size_t>(side.body)].on_vertices);
 }
 
-void OverlapExchange::give_wall_impulses(Conversation& conversation, std::span<const double> impulse,
-                                         Ledger& ledger) const {
-  using contact::norm;
+void OverlapExchange::book(Conversation& conversation, const Cut& cut, const std::vector<geometry::WallForces>& forces,
+                           double time, Ledger& ledger) const {
+  for (SolidSide& side : conversation.solids)
+    for (const Cut::Surface& surface : cut.surfaces) {
+      if (surface.body != side.body) continue;
+      const auto body = static_cast<std::size_t>(side.body);
+      std::vector<double> impulses = forces[body].on_vertices;
+      double vertical = 0;
+      for (std::size_t i = 0; i < impulses.size(); ++i) {
+        impulses[i] *= time;
+        ledger.fluid_given[body][i % 3] += impulses[i];
+        if (i % 3 == 2) vertical += impulses[i];
+      }
+      ledger.fluid_weight[body] += vertical - time * forces[body].without_gradient;
+      ledger.fluid_atmosphere[body] += time * atmospheric_pressure_ * forces[body].area_z;
+      add_fluid_impulses(side, surface.ids, surface.positions, impulses);
+    }
+}
+
+OverlapExchange::PerBody OverlapExchange::wall_impulses(const Conversation& conversation,
+                                                        std::span<const double> impulse) const {
   std::vector<double> area(now_.cells.cell.size() * body_count, 0.0);
-  for (const geometry::WallPiece& piece : now_.cells.pieces) area[piece.entry * body_count + piece.body] += norm(piece.area);
-  for (SolidSide& side : conversation.solids) {
-    const int body = static_cast<int>(side.body);
-    std::vector<double> impulses(side.positions.size(), 0.0);
-    for (const geometry::WallPiece& piece : now_.cells.pieces) {
-      if (piece.body != body) continue;
-      const std::size_t at = piece.entry * body_count + static_cast<std::size_t>(body);
-      if (!(area[at] > 0)) continue;
-      const double share = norm(piece.area) / area[at];
-      const std::int32_t* v = &side.triangles[3 * static_cast<std::size_t>(piece.triangle)];
-      for (int i = 0; i < 3; ++i)
-        for (int d = 0; d < 3; ++d) impulses[3 * v[i] + d] += share * piece.weights[i] * impulse[3 * at + d];
-    }
-    for (std::size_t i = 0; i < impulses.size(); ++i) {
-      side.fluid_impulse[i] += impulses[i];
-      ledger.fluid_given[body][i % 3] += impulses[i];
-      if (i % 3 == 2) ledger.fluid_carried[body] += impulses[i];
-    }
+  for (const geometry::WallPiece& piece : now_.cells.pieces) area[at_wall(piece)] += contact::norm(piece.area);
+  PerBody all;
+  std::array<const std::int32_t*, body_count> triangles{};
+  for (const SolidSide& side : conversation.solids) {
+    all[static_cast<std::size_t>(side.body)].assign(side.positions.size(), 0.0);
+    triangles[static_cast<std::size_t>(side.body)] = side.triangles.data();
   }
+  for (const geometry::WallPiece& piece : now_.cells.pieces) {
+    const double* given = &impulse[3 * at_wall(piece)];
+    if ((given[0] == 0 && given[1] == 0 && given[2] == 0) || !(area[at_wall(piece)] > 0)) continue;
+    const double share = contact::norm(piece.area) / area[at_wall(piece)];
+    const auto body = static_cast<std::size_t>(piece.body);
+    const std::int32_t* v = triangles[body] + 3 * static_cast<std::size_t>(piece.triangle);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t d = 0; d < 3; ++d)
+        all[body][3 * static_cast<std::size_t>(v[i]) + d] += share * piece.weights[i] * given[d];
+  }
+  return all;
 }
 
-void OverlapExchange::set_impedance(Conversation& conversation, std::span<const double> impedance) const {
-  for (SolidSide& side : conversation.solids) {
-    side.impedance.assign(6 * side.vertices(), 0.0);
-    for (const geometry::WallPiece& piece : now_.cells.pieces) {
-      const double size = contact::norm(piece.area);
-      if (piece.body != static_cast<std::int32_t>(side.body) || size == 0 || impedance[piece.entry] == 0) continue;
-      const double n[3] = {piece.area[0] / size, piece.area[1] / size, piece.area[2] / size};
-      const double products[6] = {n[0] * n[0], n[1] * n[1], n[2] * n[2], n[0] * n[1], n[1] * n[2], n[2] * n[0]};
-      const std::int32_t* v = &side.triangles[3 * static_cast<std::size_t>(piece.triangle)];
-      for (int i = 0; i < 3; ++i)
-        for (int c = 0; c < 6; ++c)
-          side.impedance[6 * static_cast<std::size_t>(v[i]) + c] += impedance[piece.entry] * size * piece.weights[i] * products[c];
-    }
+OverlapExchange::PerBody OverlapExchange::impedances(const Conversation& conversation,
+                                                     std::span<const double> impedance) const {
+  PerBody all;
+  std::array<const std::int32_t*, body_count> triangles{};
+  for (const SolidSide& side : conversation.solids) {
+    all[static_cast<std::size_t>(side.body)].assign(6 * side.vertices(), 0.0);
+    triangles[static_cast<std::size_t>(side.body)] = side.triangles.data();
   }
+  for (const geometry::WallPiece& piece : now_.cells.pieces) {
+    const double at_cell = impedance[static_cast<std::size_t>(piece.entry)], size = contact::norm(piece.area);
+    if (size == 0 || at_cell == 0) continue;
+    const double n[3] = {piece.area[0] / size, piece.area[1] / size, piece.area[2] / size};
+    const double products[6] = {n[0] * n[0], n[1] * n[1], n[2] * n[2], n[0] * n[1], n[1] * n[2], n[2] * n[0]};
+    const auto body = static_cast<std::size_t>(piece.body);
+    const std::int32_t* v = triangles[body] + 3 * static_cast<std::size_t>(piece.triangle);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t c = 0; c < 6; ++c)
+        all[body][6 * static_cast<std::size_t>(v[i]) + c] += at_cell * size * piece.weights[i] * products[c];
+  }
+  return all;
 }
 
 double OverlapExchange::verify_sample(std::uint64_t seed, std::size_t count) const {

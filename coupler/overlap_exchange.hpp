@@ -18,20 +18,12 @@ class OverlapExchange {
   /// "debris_displacement" take the time.
   const geometry::CutCells& cut(const Conversation& conversation, compute::Stopwatch& watch);
 
-  /// Adds the impulses of a span of length `span` (s) to the solids' outstanding fluid impulses and to the ledger.
-  /// `at_start` belongs to the cut before, `at_end` to the last one. Surfaces may have lost vertices in between.
-  void give_impulses(Conversation& conversation, const WallPressure& at_start, const WallPressure& at_end, double span,
-                     Ledger& ledger) const;
-
   /// Remembers with the solids the forces of the fluid's pressure at time 0, which belongs to the last cut.
   void set_start_forces(Conversation& conversation, const WallPressure& pressure) const;
 
-  /// Adds impulses that the fluid gave to walls other than by pressure, [entries of the last cut][2][3] N s. They spread
-  /// over the cell's pieces of wall by area.
-  void give_wall_impulses(Conversation& conversation, std::span<const double> impulse, Ledger& ledger) const;
-
-  /// Spreads the fluid's impedance at each cell's wall ([entries of the last cut], kg/(m^2 s)) over the vertices.
-  void set_impedance(Conversation& conversation, std::span<const double> impedance) const;
+  /// Adds the impulses of a span of length `span` (s) to the solids' outstanding fluid impulses and to the ledger, and
+  /// gives the vertices their impedance. Surfaces may have lost vertices since the cut before.
+  void take(Conversation& conversation, const FluidAnswer& answer, double span, Ledger& ledger) const;
 
   const geometry::CutCells& before() const { return before_.cells; }
   const geometry::CutCells& now() const { return now_.cells; }
@@ -41,6 +33,8 @@ class OverlapExchange {
   double verify_sample(std::uint64_t seed, std::size_t count) const;
 
  private:
+  using PerBody = std::array<std::vector<double>, body_count>;  ///< by vertex of the body's surface
+
   /// A cut with the surfaces that made it.
   struct Cut {
     geometry::CutCells cells;
@@ -54,8 +48,11 @@ class OverlapExchange {
     std::vector<Surface> surfaces;
     std::vector<geometry::BodySurface> views() const;
   };
-  void give(SolidSide& side, const Cut& cut, std::int32_t index, const WallPressure& pressure, double factor,
+  /// Adds the impulses of one cut's pressures, which acted for `time` (s).
+  void book(Conversation& conversation, const Cut& cut, const std::vector<geometry::WallForces>& forces, double time,
             Ledger& ledger) const;
+  PerBody wall_impulses(const Conversation& conversation, std::span<const double> impulse) const;
+  PerBody impedances(const Conversation& conversation, std::span<const double> impedance) const;
 
   geometry::Cutter cutter_;
   bool debris_displaces_fluid_;

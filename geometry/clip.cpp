@@ -12,14 +12,14 @@ struct PlaneCut {
 /// The solid below a cut edge. On an x-plane a piece to its right, run round counter-clockwise about the outward
 /// normal, leaves the integral of -z dy below its edge (then the area vector -z dy of the piece and the faces of the
 /// cell close); on a y-plane +z dx. Seen from the other side of the plane the signs change.
-PlaneCut cut_along_planes(const Polygon& polygon, double floor, std::uint32_t x_plane, std::uint32_t y_plane) {
+PlaneCut cut_along_planes(const Polygon& polygon, double floor, std::uint8_t x_plane, std::uint8_t y_plane) {
   PlaneCut cut;
-  for (int c = 0; c < polygon.count; ++c) {
-    const Corner& p = polygon.corner[static_cast<std::size_t>(c)];
-    if ((p.planes & (x_plane | y_plane)) == 0) continue;
-    const Corner& q = polygon.corner[static_cast<std::size_t>(c + 1 == polygon.count ? 0 : c + 1)];
+  for (std::size_t c = 0; c < polygon.count; ++c) {
+    if ((polygon.planes[c] & (x_plane | y_plane)) == 0) continue;
+    const Corner& p = *polygon.corner[c];
+    const Corner& q = *polygon.corner[c + 1 == polygon.count ? 0 : c + 1];
     const double height = 0.5 * ((p.x[2] - floor) + (q.x[2] - floor));
-    if (p.planes & x_plane) {
+    if (polygon.planes[c] & x_plane) {
       const double extent = p.x[1] - q.x[1];
       cut.x_extent += extent;
       cut.x_moment += extent * height;
@@ -35,7 +35,7 @@ PlaneCut cut_along_planes(const Polygon& polygon, double floor, std::uint32_t x_
 }  // namespace
 
 void TriangleClipper::record(const Polygon& polygon) {
-  const std::array<double, 3>& o = polygon.corner[0].x;
+  const std::array<double, 3>& o = polygon.corner[0]->x;
   const std::int32_t top = lines_[2].intervals();
   const double floor = lines_[2].line(std::min(cell_[2], top));
   PieceRecord piece;
@@ -43,11 +43,11 @@ void TriangleClipper::record(const Polygon& polygon) {
   piece.area = {0, 0, 0};
   double height_moment = 0, weight_sum = 0;
   std::array<double, 3> centre{0, 0, 0}, e, f;
-  std::uint32_t planes = polygon.corner[0].planes | polygon.corner[1].planes;
-  for (std::size_t d = 0; d < 3; ++d) f[d] = polygon.corner[1].x[d] - o[d];
-  for (int c = 2; c < polygon.count; ++c) {
-    const Corner& corner = polygon.corner[static_cast<std::size_t>(c)];
-    planes |= corner.planes;
+  unsigned planes = polygon.planes[0] | polygon.planes[1];
+  for (std::size_t d = 0; d < 3; ++d) f[d] = polygon.corner[1]->x[d] - o[d];
+  for (std::size_t c = 2; c < polygon.count; ++c) {
+    const Corner& corner = *polygon.corner[c];
+    planes |= polygon.planes[c];
     e = f;
     for (std::size_t d = 0; d < 3; ++d) f[d] = corner.x[d] - o[d];
     const std::array<double, 3> n{e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};

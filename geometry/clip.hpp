@@ -1,7 +1,6 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -10,23 +9,29 @@
 /// How one triangle is cut by the planes of the grid. Internal to the room.
 namespace polynya::geometry {
 
-/// A corner of a polygon with the interval ("slab") of the grid it is assigned to along each axis. Slabs, not
+/// A point of a surface with the interval ("slab") of the grid it is assigned to along each axis. Slabs, not
 /// coordinates, decide on which side of a plane a corner lies, and corners made on a shared edge are computed from the
 /// same numbers in the same order by both neighbours. So pieces of neighbouring triangles and cells always fit
 /// together.
 struct Corner {
   std::array<double, 3> x;
   std::array<std::int32_t, 3> slab;
-  std::uint32_t planes;  ///< planes that the edge from this corner to the next lies on
 };
 
-inline constexpr std::uint32_t on_lower_x = 1, on_upper_x = 2, on_lower_y = 4, on_upper_y = 8;
+inline constexpr std::uint8_t on_lower_x = 1, on_upper_x = 2, on_lower_y = 4, on_upper_y = 8;
 
+inline constexpr std::size_t most_corners = 24;
+
+/// A part of a triangle. Corners are not copied from cut to cut: they lie where they were made.
 struct Polygon {
-  int count = 0;
-  std::array<Corner, 24> corner;
+  std::size_t count = 0;
+  std::array<const Corner*, most_corners> corner;
+  std::array<std::uint8_t, most_corners> planes;  ///< that the edge from a corner to the next lies on
 
-  void push(const Corner& c) { corner[static_cast<std::size_t>(count++)] = c; }
+  void push(const Corner* c, std::uint8_t edge_planes) {
+    corner[count] = c;
+    planes[count++] = edge_planes;
+  }
 };
 
 /// What one triangle leaves in one cell. k may be the number of cells along z: above the grid. i or j may be the number
@@ -38,6 +43,7 @@ struct PieceRecord {
   std::array<double, 3> weights;      ///< barycentric coordinates of the centroid
   double x_extent = 0, x_moment = 0;  ///< of the cut along the cell's lower x-plane: integral of dy, of (z - z_k) dy
   double y_extent = 0, y_moment = 0;  ///< likewise along the lower y-plane: integral of dx, of (z - z_k) dx
+  std::int64_t entry = -1;            ///< where the cell went in the sorted output; -1: no wall of any cell
 };
 
 /// Cuts triangles and appends their records.
@@ -48,35 +54,42 @@ class TriangleClipper {
 
   void cut(std::int32_t triangle, const Corner& a, const Corner& b, const Corner& c) {
     Polygon whole;
-    whole.push(a);
-    whole.push(b);
-    whole.push(c);
+    whole.push(&a, 0);
+    whole.push(&b, 0);
+    whole.push(&c, 0);
     triangle_ = triangle;
     prepare_weights(a, b, c);
     cut_along<0>(whole);
   }
 
  private:
-  static constexpr std::array<std::uint32_t, 3> lower_flag{on_lower_x, on_lower_y, 0};
-  static constexpr std::array<std::uint32_t, 3> upper_flag{on_upper_x, on_upper_y, 0};
+  static constexpr std::array<std::uint8_t, 3> lower_flag{on_lower_x, on_lower_y, 0};
+  static constexpr std::array<std::uint8_t, 3> upper_flag{on_upper_x, on_upper_y, 0};
+
+  /// Corners on one plane of the grid. Two, unless rounding folded the polygon.
+  struct Crossings {
+    std::size_t count = 0;
+    std::array<Corner, most_corners> corner;
+  };
 
   template <std::size_t axis>
   void cut_along(const Polygon& polygon) {
-    std::int32_t first = polygon.corner[0].slab[axis], last = first;
-    for (int c = 1; c < polygon.count; ++c) {
-      const std::int32_t slab = polygon.corner[static_cast<std::size_t>(c)].slab[axis];
+    std::int32_t first = polygon.corner[0]->slab[axis], last = first;
+    for (std::size_t c = 1; c < polygon.count; ++c) {
+      const std::int32_t slab = polygon.corner[c]->slab[axis];
       first = std::min(first, slab);
       last = std::max(last, slab);
     }
     if (first == last) return in_slab<axis>(polygon, first);
     Polygon lower;
-    std::array<Polygon, 2> upper;  // in turn: what remains above the last plane
+    std::array<Polygon, 2> upper;        // in turn: what remains above the last plane
+    std::array<Crossings, 2> crossings;  // in turn: a part between two planes has corners on both
     const Polygon* remaining = &polygon;
     for (std::int32_t plane = first + 1; plane <= last; ++plane) {
-      Polygon& next = upper[static_cast<std::size_t>(plane & 1)];
-      split<axis>(*remaining, plane, lower, next);
+      const auto turn = static_cast<std::size_t>(plane & 1);
+      split<axis>(*remaining, plane, crossings[turn], lower, upper[turn]);
       in_slab<axis>(lower, plane - 1);
-      remaining = &next;
+      remaining = &upper[turn];
     }
     in_slab<axis>(*remaining, last);
   }
@@ -92,9 +105,9 @@ class TriangleClipper {
       record(polygon);
   }
 
+  /// Assigned to the upper side: of the part below the plane nobody asks any more.
   template <std::size_t axis>
-  Corner crossing(const Corner& below, const Corner& above, std::int32_t plane) const {
-    Corner r;
+  void cross(const Corner& below, const Corner& above, std::int32_t plane, Corner& r) const {
     const double position = lines_[axis].line(plane), rise = above.x[axis] - below.x[axis];
     // Both ends on the plane, assigned to different sides: any point of the edge serves, if both neighbours choose the
     // same.
@@ -108,25 +121,27 @@ class TriangleClipper {
                                std::max(below.slab[d], above.slab[d]));
     }
     r.x[axis] = position;
-    return r;
+    r.slab[axis] = plane;
   }
 
   template <std::size_t axis>
-  void split(const Polygon& polygon, std::int32_t plane, Polygon& lower, Polygon& upper) const {
-    lower.count = upper.count = 0;
-    for (int c = 0; c < polygon.count; ++c) {
-      const Corner& p = polygon.corner[static_cast<std::size_t>(c)];
-      const Corner& q = polygon.corner[static_cast<std::size_t>(c + 1 == polygon.count ? 0 : c + 1)];
-      const bool p_above = p.slab[axis] >= plane, q_above = q.slab[axis] >= plane;
-      (p_above ? upper : lower).push(p);
-      if (p_above == q_above) continue;
-      Corner r = crossing<axis>(p_above ? q : p, p_above ? p : q, plane);
-      r.slab[axis] = plane - 1;
-      r.planes = p_above ? p.planes : upper_flag[axis];
-      lower.push(r);
-      r.slab[axis] = plane;
-      r.planes = p_above ? lower_flag[axis] : p.planes;
-      upper.push(r);
+  void split(const Polygon& polygon, std::int32_t plane, Crossings& crossings, Polygon& lower, Polygon& upper) const {
+    lower.count = upper.count = crossings.count = 0;
+    const Corner* p = polygon.corner[0];
+    bool p_above = p->slab[axis] >= plane;
+    for (std::size_t c = 0; c < polygon.count; ++c) {
+      const Corner* q = polygon.corner[c + 1 == polygon.count ? 0 : c + 1];
+      const bool q_above = q->slab[axis] >= plane;
+      const std::uint8_t edge = polygon.planes[c];
+      (p_above ? upper : lower).push(p, edge);
+      if (p_above != q_above) {
+        Corner& r = crossings.corner[crossings.count++];
+        cross<axis>(p_above ? *q : *p, p_above ? *p : *q, plane, r);
+        lower.push(&r, p_above ? edge : upper_flag[axis]);
+        upper.push(&r, p_above ? lower_flag[axis] : edge);
+      }
+      p = q;
+      p_above = q_above;
     }
   }
 

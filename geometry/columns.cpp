@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace polynya::geometry {
 namespace {
 
-constexpr double negligible = 1e-12;       // of a cell or face: rounding
-constexpr double negligible_wall = 1e-14;  // of the sum of a cell's face areas
+constexpr double negligible = 1e-12;        // of a cell or face: rounding
+constexpr std::size_t prefetch_ahead = 16;  // records
+constexpr double negligible_wall = 1e-14;   // of the sum of a cell's face areas
 
 double snapped(double fraction) {
   if (std::abs(fraction) < negligible) return 0.0;
@@ -18,9 +20,8 @@ double snapped(double fraction) {
 /// One column: gathers the records, then walks down from the top, keeping what lies above.
 class ColumnWalk {
  public:
-  ColumnWalk(const GridLines& grid, std::span<const BodySurface> bodies, std::span<ColumnRecords> records,
-             std::size_t column, ColumnChunk& chunk)
-      : bodies_(bodies), records_(records), column_(column), chunk_(chunk), z_(grid.lines[2]) {
+  ColumnWalk(const GridLines& grid, std::span<const BodySurface> bodies, std::size_t column, ColumnChunk& chunk)
+      : bodies_(bodies), local_(column % column_chunk), chunk_(chunk), z_(grid.lines[2]) {
     const auto columns_x = static_cast<std::size_t>(grid.cells(0)) + 1;
     i_ = static_cast<std::int32_t>(column % columns_x);
     j_ = static_cast<std::int32_t>(column / columns_x);
@@ -32,7 +33,6 @@ class ColumnWalk {
   void run() {
     if (!gather()) return;
     chunk_.shade.assign(bodies_.size(), {});
-    std::fill_n(chunk_.row_of_k.begin(), highest_ + 1, -1);
     for (std::int32_t k = highest_; k >= 0; --k) {
       if (chunk_.occupied[static_cast<std::size_t>(k)]) {
         if (k < top_) cells(k, 1);
@@ -47,8 +47,7 @@ class ColumnWalk {
       z_faces(k, high - k + 1);
     }
     note_rows_of_records();
-    std::fill_n(chunk_.sums.begin(), static_cast<std::size_t>(highest_ + 1) * bodies_.size(), CellSum{});
-    std::fill_n(chunk_.occupied.begin(), highest_ + 1, char{0});
+    clear_sums();
   }
 
  private:
@@ -56,16 +55,41 @@ class ColumnWalk {
     return chunk_.sums[static_cast<std::size_t>(k) * bodies_.size() + body];
   }
 
+  /// The column's records of one body.
+  std::span<PieceRecord*> records(std::size_t body) const {
+    const std::int32_t* first = chunk_.first.data() + body * (column_chunk + 1) + local_;
+    return {chunk_.record.data() + first[0], static_cast<std::size_t>(first[1] - first[0])};
+  }
+
   bool gather() {
     highest_ = -1;
     for (std::size_t b = 0; b < bodies_.size(); ++b)
-      for (std::int32_t r = records_[b].start[column_]; r < records_[b].start[column_ + 1]; ++r)
-        add(*records_[b].record[static_cast<std::size_t>(r)], b);
+      for (PieceRecord*& piece : records(b)) {
+        prefetch(static_cast<std::size_t>(&piece - chunk_.record.data()) + prefetch_ahead);
+        add(*piece, b);
+      }
     return highest_ >= 0;
+  }
+
+  /// The records of a column lie apart from one another, and waiting for them is most of the work.
+  void prefetch(std::size_t record) const {
+    if (record >= chunk_.record.size()) return;
+    const char* piece = reinterpret_cast<const char*>(chunk_.record[record]);
+    __builtin_prefetch(piece);
+    __builtin_prefetch(piece + sizeof(PieceRecord) / 2);
+  }
+
+  void clear_sums() {
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      for (const PieceRecord* piece : records(b)) {
+        sum(piece->k, b) = {};
+        chunk_.occupied[static_cast<std::size_t>(piece->k)] = 0;
+      }
   }
 
   void add(const PieceRecord& piece, std::size_t b) {
     chunk_.occupied[static_cast<std::size_t>(piece.k)] = 1;
+    chunk_.row_of_k[static_cast<std::size_t>(piece.k)] = -1;
     highest_ = std::max(highest_, piece.k);
     CellSum& s = sum(piece.k, b);
     s.height_moment += piece.height_moment;
@@ -130,18 +154,16 @@ class ColumnWalk {
   /// Solid parts of `count` faces from k upward; `solid` and `whole` are areas, for x and y per height.
   template <class Solid>
   void faces(std::size_t axis, std::int32_t k, std::int32_t count, double whole, Solid&& solid) {
-    Rows& rows = chunk_.faces[axis];
-    const std::size_t first = rows.values.size();
     bool present = false;
     double total = 0;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const double fraction = snapped(solid(b) / whole);
       present = present || fraction != 0;
       total += fraction;
-      rows.values.push_back(fraction);
     }
-    if (!present) return rows.values.resize(first);
-    rows.place.push_back({i_, j_, k, count});
+    if (!present) return;
+    chunk_.faces[axis].place.push_back({i_, j_, k, count});
+    chunk_.faces[axis].values.push_back(std::clamp(total, 0.0, 1.0));
     const double excess = total - std::clamp(total, 0.0, 1.0);
     if (std::abs(excess) <= negligible) return;
     for (std::int32_t level = k; level < k + count; ++level)
@@ -157,19 +179,17 @@ class ColumnWalk {
   }
 
   void note_rows_of_records() {
-    for (ColumnRecords& body : records_)
-      for (std::int32_t r = body.start[column_]; r < body.start[column_ + 1]; ++r) {
-        const PieceRecord& piece = *body.record[static_cast<std::size_t>(r)];
-        const bool area = piece.area[0] != 0 || piece.area[1] != 0 || piece.area[2] != 0;
-        const std::int32_t row = area && piece.k < top_ ? chunk_.row_of_k[static_cast<std::size_t>(piece.k)] : -1;
-        body.row[static_cast<std::size_t>(r)] = row;
-        chunk_.pieces += row >= 0;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      for (PieceRecord*& piece : records(b)) {
+        const bool area = piece->area[0] != 0 || piece->area[1] != 0 || piece->area[2] != 0;
+        const std::int32_t row = area && piece->k < top_ ? chunk_.row_of_k[static_cast<std::size_t>(piece->k)] : -1;
+        chunk_.row[static_cast<std::size_t>(&piece - chunk_.record.data())] = row;
+        if (row >= 0) ++chunk_.pieces[b][static_cast<std::size_t>(piece->triangle) / triangle_chunk];
       }
   }
 
   std::span<const BodySurface> bodies_;
-  std::span<ColumnRecords> records_;
-  std::size_t column_;
+  std::size_t local_;  // number of the column within the chunk
   ColumnChunk& chunk_;
   const std::vector<double>& z_;
   std::int32_t i_ = 0, j_ = 0, top_ = 0, highest_ = -1;
@@ -178,46 +198,76 @@ class ColumnWalk {
 
 }  // namespace
 
-void Rows::count_levels(std::size_t levels) {
-  next.assign(levels + 1, 0);
+void Rows::sort(std::size_t levels) {
+  start.assign(levels + 1, 0);
   for (const Place& at : place) {  // the ends of the runs first, then their sum
-    ++next[static_cast<std::size_t>(at.k)];
-    --next[static_cast<std::size_t>(at.k + at.count)];
+    ++start[static_cast<std::size_t>(at.k)];
+    --start[static_cast<std::size_t>(at.k + at.count)];
   }
-  for (std::size_t k = 1; k <= levels; ++k) next[k] += next[k - 1];
+  for (std::size_t k = 1; k <= levels; ++k) start[k] += start[k - 1];
+  std::int32_t total = 0;
+  for (std::int32_t& count : start) total += std::exchange(count, total);
+  order.resize(static_cast<std::size_t>(total));
+  first.assign(start.begin(), start.end() - 1);  // meanwhile: where the next one of the level goes in `order`
+  for (std::size_t r = 0; r < size(); ++r)
+    for (std::int32_t k = place[r].k; k < place[r].k + place[r].count; ++k)
+      order[static_cast<std::size_t>(first[static_cast<std::size_t>(k)]++)] = static_cast<std::int32_t>(r);
 }
 
-void ColumnChunk::clear() {
-  cells.clear();
-  for (Rows& rows : faces) rows.clear();
-  excesses.clear();
-  pieces = 0;
-  overlapping_cells = 0;
-}
+namespace {
 
-void ColumnRecords::sort(const std::vector<std::vector<PieceRecord>>& chunks, std::size_t columns,
-                         std::int32_t columns_x) {
-  const auto column = [&](const PieceRecord& p) { return static_cast<std::size_t>(p.i + columns_x * p.j); };
-  start.assign(columns + 2, 0);
-  for (const auto& chunk : chunks)
-    for (const PieceRecord& piece : chunk) ++start[column(piece) + 2];
-  for (std::size_t c = 2; c < start.size(); ++c) start[c] += start[c - 1];
-  record.resize(static_cast<std::size_t>(start.back()));
-  row.resize(record.size());
-  for (const auto& chunk : chunks)  // start[c + 1] runs from the beginning of column c to its end
-    for (const PieceRecord& piece : chunk) record[static_cast<std::size_t>(start[column(piece) + 1]++)] = &piece;
-}
-
-void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies, std::span<ColumnRecords> records,
-                 std::size_t begin, std::size_t end, ColumnChunk& chunk) {
-  chunk.clear();
-  const auto slabs = static_cast<std::size_t>(grid.cells(2)) + 1;
-  chunk.row_of_k.resize(slabs);
+void clear(ColumnChunk& chunk, std::size_t bodies, std::size_t slabs) {
+  chunk.cells.clear();
+  for (Rows& rows : chunk.faces) rows.clear();
+  chunk.excesses.clear();
+  chunk.overlapping_cells = 0;
+  chunk.row_of_k.resize(slabs, -1);
   chunk.occupied.resize(slabs, 0);
-  if (chunk.sums.size() != slabs * bodies.size()) chunk.sums.assign(slabs * bodies.size(), CellSum{});
-  for (std::size_t column = begin; column < end; ++column) ColumnWalk(grid, bodies, records, column, chunk).run();
-  chunk.cells.count_levels(slabs);
-  for (Rows& rows : chunk.faces) rows.count_levels(slabs);
+  if (chunk.sums.size() != slabs * bodies) chunk.sums.assign(slabs * bodies, CellSum{});
+}
+
+/// Sorts the records in the columns from `begin` on by body and column; triangles keep their order.
+void take_records(std::span<std::vector<ClippedChunk>> clipped, std::size_t begin, ColumnChunk& chunk) {
+  const std::size_t bucket = begin / column_chunk;
+  constexpr std::size_t stride = column_chunk + 1;
+  chunk.first.assign(clipped.size() * stride, 0);
+  chunk.pieces.resize(clipped.size());
+  const auto for_all = [&](std::size_t b, auto&& action) {
+    for (ClippedChunk& part : clipped[b])
+      for (std::int32_t r = part.start[bucket]; r < part.start[bucket + 1]; ++r) {
+        const ClippedChunk::InColumn& at = part.by_columns[static_cast<std::size_t>(r)];
+        action(static_cast<std::size_t>(at.column) - begin, part.records[static_cast<std::size_t>(at.record)]);
+      }
+  };
+  std::int32_t total = 0;
+  for (std::size_t b = 0; b < clipped.size(); ++b) {
+    chunk.pieces[b].assign(clipped[b].size(), 0);
+    std::int32_t* first = chunk.first.data() + b * stride;
+    for_all(b, [&](std::size_t column, PieceRecord&) { ++first[column]; });
+    for (std::size_t c = 0; c < stride; ++c) total += std::exchange(first[c], total);
+  }
+  chunk.record.resize(static_cast<std::size_t>(total));
+  chunk.row.resize(chunk.record.size());
+  for (std::size_t b = 0; b < clipped.size(); ++b) {
+    std::int32_t* first = chunk.first.data() + b * stride;
+    for_all(b, [&](std::size_t column, PieceRecord& piece) {
+      chunk.record[static_cast<std::size_t>(first[column]++)] = &piece;
+    });
+    for (std::size_t c = stride - 1; c > 0; --c) first[c] = first[c - 1];  // back from the ends to the beginnings
+    first[0] = b == 0 ? 0 : first[-1];
+  }
+}
+
+}  // namespace
+
+void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies,
+                 std::span<std::vector<ClippedChunk>> clipped, std::size_t begin, std::size_t end, ColumnChunk& chunk) {
+  const auto slabs = static_cast<std::size_t>(grid.cells(2)) + 1;
+  clear(chunk, bodies.size(), slabs);
+  take_records(clipped, begin, chunk);
+  for (std::size_t column = begin; column < end; ++column) ColumnWalk(grid, bodies, column, chunk).run();
+  chunk.cells.sort(slabs);
+  for (Rows& rows : chunk.faces) rows.sort(slabs);
 }
 
 }  // namespace polynya::geometry

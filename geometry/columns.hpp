@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/clip.hpp"
+#include "geometry/clipped_triangles.hpp"
 #include "geometry/cut_cells.hpp"
 
 /// From the records of clipped triangles to cells and faces, one column of cells after the other. Internal to the room.
@@ -15,11 +15,14 @@ struct Place {
   std::int32_t i, j, k, count;
 };
 
-/// Rows of output of a chunk of columns: where they belong and, per body, their values.
+/// Rows of output of a chunk of columns: where they belong and what they hold. A row stands for `count` places, one per
+/// level k.
 struct Rows {
   std::vector<Place> place;
-  std::vector<double> values;      ///< [rows][stride]
-  std::vector<std::int64_t> next;  ///< per level k: how many; then where the chunk's next one goes in the sorted output
+  std::vector<double> values;          ///< [rows][stride]
+  std::vector<std::int32_t> start;     ///< [levels + 1], in `order`
+  std::vector<std::int32_t> order;     ///< rows by level, there in the order of the columns
+  std::vector<std::int64_t> first;     ///< [levels], where the chunk's first place of a level goes in the sorted output
   std::vector<std::int64_t> position;  ///< [rows], where the first of the row went
 
   std::size_t size() const { return place.size(); }
@@ -27,7 +30,7 @@ struct Rows {
     place.clear();
     values.clear();
   }
-  void count_levels(std::size_t levels);
+  void sort(std::size_t levels);
 };
 
 /// Values of a cell per body: fraction of its volume, outward area vector, velocity.
@@ -51,32 +54,25 @@ struct CellSum {
   double x_extent = 0, x_moment = 0, y_extent = 0, y_moment = 0;
 };
 
-/// The records of one body, sorted by column.
-struct ColumnRecords {
-  std::vector<std::int32_t> start;         ///< [columns + 1]
-  std::vector<const PieceRecord*> record;  ///< by column, in the order of the triangles
-  std::vector<std::int32_t> row;           ///< per record: row of its cell in its chunk, -1: no wall of any cell
-
-  void sort(const std::vector<std::vector<PieceRecord>>& chunks, std::size_t columns, std::int32_t columns_x);
-};
-
 /// One chunk of columns: its own output and scratch, so that results belong to chunks.
 struct ColumnChunk {
   Rows cells;
   std::array<Rows, 3> faces;
   std::vector<FaceExcess> excesses;
-  std::size_t pieces = 0;
   std::int64_t overlapping_cells = 0;
-  std::vector<CellSum> sums;           ///< scratch [cells along z + 1][bodies]
-  std::vector<ColumnShade> shade;      ///< scratch [bodies]
-  std::vector<std::int32_t> row_of_k;  ///< scratch [cells along z + 1]
-  std::vector<char> occupied;          ///< scratch [cells along z + 1], there is surface in the slab
-
-  void clear();
+  std::vector<std::int32_t> first;                ///< [bodies][column_chunk + 1], where the records of a column begin
+  std::vector<PieceRecord*> record;               ///< by body and column, in the order of the triangles
+  std::vector<std::int32_t> row;                  ///< per record: row of its cell, -1: no wall of any cell
+  std::vector<std::vector<std::int32_t>> pieces;  ///< [bodies][chunks of triangles], how many records have a row
+  std::vector<CellSum> sums;                      ///< scratch [cells along z + 1][bodies]
+  std::vector<ColumnShade> shade;                 ///< scratch [bodies]
+  std::vector<std::int32_t> row_of_k;             ///< scratch [cells along z + 1]
+  std::vector<char> occupied;                     ///< scratch [cells along z + 1], there is surface in the slab
 };
 
-/// Sums up the columns [begin, end) (numbered i + (nx+1)*j) of all bodies into `chunk`.
-void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies, std::span<ColumnRecords> records,
-                 std::size_t begin, std::size_t end, ColumnChunk& chunk);
+/// Sums up the columns [begin, end) (numbered i + (nx+1)*j) of all bodies into `chunk`. clipped: [bodies][chunks of
+/// triangles]; of them the records of these columns are noted in `chunk`.
+void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies,
+                 std::span<std::vector<ClippedChunk>> clipped, std::size_t begin, std::size_t end, ColumnChunk& chunk);
 
 }  // namespace polynya::geometry

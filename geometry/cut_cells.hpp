@@ -28,13 +28,13 @@ struct WallPiece {
   std::int64_t entry;             ///< position in CutCells::cell
   std::array<double, 3> area;     ///< m^2, outward of the body
   std::array<double, 3> weights;  ///< barycentric coordinates of the centroid of the piece
+  double height;                  ///< m, of the centroid above the centre of the cell
 };
 
 /// Solid fractions of the faces normal to one axis. Faces that are not listed are free of solid.
 struct CutFaces {
   std::vector<std::int64_t> face;  ///< sorted; x: i + (nx+1)*(j + ny*k), y: i + nx*(j + (ny+1)*k), z: i + nx*(j + ny*k)
   std::vector<double> solid;       ///< [faces], fraction covered by the union of the bodies, 0..1
-  std::vector<double> body_solid;  ///< [faces][bodies], fraction covered by each body (not clamped)
 };
 
 /// What solids take from a grid. One entry per cell that contains solid, wall or debris, sorted by cell.
@@ -48,7 +48,7 @@ struct CutCells {
                                   ///< sum over the cell's faces of solid fraction * outward face vector
   std::vector<double> wall_velocity;  ///< [entries][bodies][3], m/s, mean over the wall in the cell; 0 without wall
   std::array<CutFaces, 3> faces;      ///< normal to x, y, z
-  std::vector<WallPiece> pieces;      ///< sum of area per entry and body = -wall_area
+  std::vector<WallPiece> pieces;      ///< sum of area per entry and body = -wall_area; mostly in the order of triangles
 
   std::int64_t overlapping_cells = 0;  ///< cells whose solid volume exceeded the cell (bodies overlap) and was clamped
   std::int64_t corrected_faces = 0;    ///< faces whose fraction left [0, 1] (overlap, folded surface) and was clamped
@@ -89,10 +89,16 @@ class Cutter {
   std::unique_ptr<Workspace> workspace_;
 };
 
-/// Adds the forces (N, [vertices][3]) on one body's vertices from the pressures of the cells:
-/// p(z) = pressure[entry] - gradient_z[entry] * (z - centre of the cell).
-void add_pressure_forces(const CutCells& cut, const GridLines& grid, std::int32_t body, const BodySurface& surface,
-                         std::span<const double> pressure, std::span<const double> gradient_z,
-                         std::span<double> forces);
+/// Forces of the fluid on one body.
+struct WallForces {
+  std::vector<double> on_vertices;  ///< [vertices][3], N
+  double without_gradient = 0;      ///< N, the vertical force that the pressures at the centres of the cells alone give
+  double area_z = 0;                ///< m^2, vertical component of the area vector into the body
+};
+
+/// Forces on all bodies from the pressures of the cells: p(z) = pressure[entry] - gradient_z[entry] * (z - centre of
+/// the cell). `bodies` are those that made the cut.
+std::vector<WallForces> pressure_forces(const CutCells& cut, std::span<const BodySurface> bodies,
+                                        std::span<const double> pressure, std::span<const double> gradient_z);
 
 }  // namespace polynya::geometry

@@ -10,17 +10,15 @@
 namespace polynya::geometry {
 namespace {
 
-constexpr std::size_t triangle_chunk = 512;
-constexpr std::size_t column_chunk = 64;
-
 /// Gives every chunk its places, sorted by k; within one k in the order of the columns, so the result is sorted by
 /// index. Returns the number of places.
 std::size_t assign_places(std::vector<ColumnChunk>& chunks, std::size_t levels, Rows& (*rows_of)(ColumnChunk&)) {
   std::int64_t place = 0;
   for (std::size_t k = 0; k < levels; ++k)
     for (ColumnChunk& chunk : chunks) {
-      std::int64_t& next = rows_of(chunk).next[k];
-      place += std::exchange(next, place);
+      Rows& rows = rows_of(chunk);
+      rows.first[k] = place;
+      place += rows.start[k + 1] - rows.start[k];
     }
   return static_cast<std::size_t>(place);
 }
@@ -28,12 +26,13 @@ std::size_t assign_places(std::vector<ColumnChunk>& chunks, std::size_t levels, 
 void scatter_cells(const GridLines& grid, Rows& rows, CutCells& out) {
   const std::size_t bodies = out.bodies;
   rows.position.resize(rows.size());
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const Place& place = rows.place[r];
-    const double* values = rows.values.data() + r * bodies * cell_stride;
-    rows.position[r] = rows.next[static_cast<std::size_t>(place.k)];
-    for (std::int32_t k = place.k; k < place.k + place.count; ++k) {
-      const auto at = static_cast<std::size_t>(rows.next[static_cast<std::size_t>(k)]++);
+  for (std::size_t level = 0; level + 1 < rows.start.size(); ++level) {
+    const auto k = static_cast<std::int64_t>(level);
+    auto at = static_cast<std::size_t>(rows.first[level]);
+    for (std::int32_t n = rows.start[level]; n < rows.start[level + 1]; ++n, ++at) {
+      const auto r = static_cast<std::size_t>(rows.order[static_cast<std::size_t>(n)]);
+      const Place& place = rows.place[r];
+      const double* values = rows.values.data() + r * bodies * cell_stride;
       const double volume = grid.width(0, place.i) * grid.width(1, place.j) * grid.width(2, k);
       double total = 0;
       for (std::size_t b = 0; b < bodies; ++b) {
@@ -48,49 +47,52 @@ void scatter_cells(const GridLines& grid, Rows& rows, CutCells& out) {
       out.cell[at] = grid.cell_index(place.i, place.j, k);
       out.solid_volume[at] = std::clamp(total, 0.0, 1.0) * volume;
       out.debris_volume[at] = 0;
+      if (place.k == k) rows.position[r] = static_cast<std::int64_t>(at);
     }
   }
 }
 
-void scatter_faces(Rows& rows, std::int64_t count_x, std::int64_t count_y, std::size_t bodies, CutFaces& out) {
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const Place& place = rows.place[r];
-    const double* values = rows.values.data() + r * bodies;
-    double total = 0;
-    for (std::size_t b = 0; b < bodies; ++b) total += values[b];
-    for (std::int32_t k = place.k; k < place.k + place.count; ++k) {
-      const auto at = static_cast<std::size_t>(rows.next[static_cast<std::size_t>(k)]++);
-      for (std::size_t b = 0; b < bodies; ++b) out.body_solid[at * bodies + b] = values[b];
-      out.face[at] = place.i + count_x * (place.j + count_y * k);
-      out.solid[at] = std::clamp(total, 0.0, 1.0);
+void scatter_faces(const Rows& rows, std::int64_t count_x, std::int64_t count_y, CutFaces& out) {
+  for (std::size_t level = 0; level + 1 < rows.start.size(); ++level) {
+    const auto k = static_cast<std::int64_t>(level);
+    auto at = static_cast<std::size_t>(rows.first[level]);
+    for (std::int32_t n = rows.start[level]; n < rows.start[level + 1]; ++n, ++at) {
+      const auto r = static_cast<std::size_t>(rows.order[static_cast<std::size_t>(n)]);
+      out.face[at] = rows.place[r].i + count_x * (rows.place[r].j + count_y * k);
+      out.solid[at] = rows.values[r];
     }
   }
 }
 
-void scatter_pieces(const ColumnRecords& records, std::int32_t body, const Rows& cells, std::size_t begin,
-                    std::size_t end, WallPiece*& next) {
-  for (auto r = static_cast<std::size_t>(records.start[begin]); r < static_cast<std::size_t>(records.start[end]); ++r) {
-    if (records.row[r] < 0) continue;
-    const PieceRecord& piece = *records.record[r];
-    *next++ = {body, piece.triangle, cells.position[static_cast<std::size_t>(records.row[r])], piece.area,
-               piece.weights};
+/// Of the centroid of a piece above the centre of its cell, m.
+double height(const GridLines& grid, const BodySurface& surface, const PieceRecord& piece) {
+  const auto k = static_cast<std::size_t>(piece.k);
+  double height = -0.5 * (grid.lines[2][k] + grid.lines[2][k + 1]);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::int32_t vertex = surface.triangles[3 * static_cast<std::size_t>(piece.triangle) + c];
+    height += piece.weights[c] * surface.positions[3 * static_cast<std::size_t>(vertex) + 2];
   }
+  return height;
 }
 
-void resize(CutCells& out, std::size_t entries, std::size_t pieces) {
+/// Tells the records where their cells went.
+void note_entries(ColumnChunk& chunk) {
+  for (std::size_t r = 0; r < chunk.record.size(); ++r)
+    chunk.record[r]->entry = chunk.row[r] < 0 ? -1 : chunk.cells.position[static_cast<std::size_t>(chunk.row[r])];
+}
+
+void resize(CutCells& out, std::size_t entries) {
   out.cell.resize(entries);
   out.solid_volume.resize(entries);
   out.debris_volume.resize(entries);
   out.body_volume.resize(entries * out.bodies);
   out.wall_area.resize(entries * out.bodies * 3);
   out.wall_velocity.resize(entries * out.bodies * 3);
-  out.pieces.resize(pieces);
 }
 
-void resize(CutFaces& out, std::size_t faces, std::size_t bodies) {
+void resize(CutFaces& out, std::size_t faces) {
   out.face.resize(faces);
   out.solid.resize(faces);
-  out.body_solid.resize(faces * bodies);
 }
 
 }  // namespace
@@ -114,40 +116,36 @@ void Cutter::cut(std::span<const BodySurface> bodies, CutCells& out) {
   out.overlapping_cells = out.corrected_faces = out.loose_edges = 0;
   out.squeezed_volume = 0;
   work.surfaces.resize(bodies.size());
-  work.pieces.resize(bodies.size());
-  work.records.resize(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     work.surfaces[b].place(bodies[b], work.locators);
     out.loose_edges += work.surfaces[b].loose_edges();
-    work.clip(b, bodies[b]);
   }
+  work.clip(bodies);
   work.sum(bodies);
   work.collect(out);
+  work.collect_pieces(bodies, out);
   correct_excess(work.grid, work.excesses, out);
 }
 
-void Cutter::Workspace::clip(std::size_t body, const BodySurface& surface) {
-  const std::vector<Corner>& corners = surfaces[body].corners();
-  const std::size_t triangles = surface.triangles.size() / 3;
-  pieces[body].resize((triangles + triangle_chunk - 1) / triangle_chunk);
-  compute::for_chunks(triangles, triangle_chunk, [&](std::size_t begin, std::size_t end) {
-    std::vector<PieceRecord>& mine = pieces[body][begin / triangle_chunk];
-    mine.clear();
-    TriangleClipper clipper(locators, mine);
-    for (std::size_t t = begin; t < end; ++t) {
-      const auto corner = [&](std::size_t c) -> const Corner& {
-        return corners[static_cast<std::size_t>(surface.triangles[3 * t + c])];
-      };
-      clipper.cut(static_cast<std::int32_t>(t), corner(0), corner(1), corner(2));
-    }
+void Cutter::Workspace::clip(std::span<const BodySurface> bodies) {
+  clipped.resize(bodies.size());
+  clips.clear();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    clipped[b].resize((bodies[b].triangles.size() / 3 + triangle_chunk - 1) / triangle_chunk);
+    for (std::size_t c = 0; c < clipped[b].size(); ++c) clips.push_back({b, c});
+  }
+  compute::for_chunks(clips.size(), 1, [&](std::size_t at, std::size_t) {
+    const auto [b, c] = clips[at];
+    const std::size_t triangles = bodies[b].triangles.size() / 3, begin = c * triangle_chunk;
+    clipped[b][c].clip(locators, surfaces[b].corners(), bodies[b].triangles, begin,
+                       std::min(triangles, begin + triangle_chunk));
   });
-  records[body].sort(pieces[body], columns(), static_cast<std::int32_t>(grid.cells(0)) + 1);
 }
 
 void Cutter::Workspace::sum(std::span<const BodySurface> bodies) {
   chunks.resize((columns() + column_chunk - 1) / column_chunk);
   compute::for_chunks(columns(), column_chunk, [&](std::size_t begin, std::size_t end) {
-    sum_columns(grid, bodies, records, begin, end, chunks[begin / column_chunk]);
+    sum_columns(grid, bodies, clipped, begin, end, chunks[begin / column_chunk]);
   });
 }
 
@@ -158,24 +156,36 @@ void Cutter::Workspace::collect(CutCells& out) {
       assign_places(chunks, levels, [](ColumnChunk& c) -> Rows& { return c.faces[0]; }),
       assign_places(chunks, levels, [](ColumnChunk& c) -> Rows& { return c.faces[1]; }),
       assign_places(chunks, levels, [](ColumnChunk& c) -> Rows& { return c.faces[2]; })};
-  piece_start.assign(1, 0);
   excesses.clear();
   for (const ColumnChunk& chunk : chunks) {
-    piece_start.push_back(piece_start.back() + chunk.pieces);
     excesses.insert(excesses.end(), chunk.excesses.begin(), chunk.excesses.end());
     out.overlapping_cells += chunk.overlapping_cells;
   }
-  resize(out, entries, piece_start.back());
-  for (std::size_t axis = 0; axis < 3; ++axis) resize(out.faces[axis], faces[axis], out.bodies);
-  compute::for_chunks(columns(), column_chunk, [&](std::size_t begin, std::size_t end) {
-    const std::size_t c = begin / column_chunk;
+  resize(out, entries);
+  for (std::size_t axis = 0; axis < 3; ++axis) resize(out.faces[axis], faces[axis]);
+  compute::for_chunks(chunks.size(), 1, [&](std::size_t c, std::size_t) {
     scatter_cells(grid, chunks[c].cells, out);
     for (std::size_t axis = 0; axis < 3; ++axis)
-      scatter_faces(chunks[c].faces[axis], grid.cells(0) + (axis == 0), grid.cells(1) + (axis == 1), out.bodies,
-                    out.faces[axis]);
-    WallPiece* piece = out.pieces.data() + piece_start[c];
-    for (std::size_t b = 0; b < out.bodies; ++b)
-      scatter_pieces(records[b], static_cast<std::int32_t>(b), chunks[c].cells, begin, end, piece);
+      scatter_faces(chunks[c].faces[axis], grid.cells(0) + (axis == 0), grid.cells(1) + (axis == 1), out.faces[axis]);
+    note_entries(chunks[c]);
+  });
+}
+
+void Cutter::Workspace::collect_pieces(std::span<const BodySurface> bodies, CutCells& out) {
+  piece_start.assign(1, 0);
+  for (const auto& [b, c] : clips) {
+    std::size_t count = 0;
+    for (const ColumnChunk& chunk : chunks) count += static_cast<std::size_t>(chunk.pieces[b][c]);
+    piece_start.push_back(piece_start.back() + count);
+  }
+  out.pieces.resize(piece_start.back());
+  compute::for_chunks(clips.size(), 1, [&](std::size_t at, std::size_t) {
+    const auto [b, c] = clips[at];
+    WallPiece* next = out.pieces.data() + piece_start[at];
+    for (const PieceRecord& piece : clipped[b][c].records)
+      if (piece.entry >= 0)
+        *next++ = {static_cast<std::int32_t>(b),  piece.triangle, piece.entry, piece.area, piece.weights,
+                   height(grid, bodies[b], piece)};
   });
 }
 

@@ -10,19 +10,20 @@ namespace polynya::geometry {
 struct Cutter::Workspace {
   GridLines grid;
   std::array<LineLocator, 3> locators;
-  std::vector<PlacedSurface> surfaces;                        ///< [bodies]
-  std::vector<std::vector<std::vector<PieceRecord>>> pieces;  ///< [bodies][chunks of triangles]
-  std::vector<ColumnRecords> records;                         ///< [bodies]
-  std::vector<ColumnChunk> chunks;                            ///< [chunks of columns]
+  std::vector<PlacedSurface> surfaces;             ///< [bodies]
+  std::vector<std::vector<ClippedChunk>> clipped;  ///< [bodies][chunks of triangles]
+  std::vector<std::array<std::size_t, 2>> clips;   ///< body and chunk of triangles of all of them
+  std::vector<ColumnChunk> chunks;                 ///< [chunks of columns]
   std::vector<FaceExcess> excesses;
-  std::vector<std::size_t> piece_start;  ///< [chunks of columns + 1]
+  std::vector<std::size_t> piece_start;  ///< [clips + 1]
   DebrisDeposit debris;
 
   /// Columns of cells, and one more along x and y for the last planes.
   std::size_t columns() const { return static_cast<std::size_t>((grid.cells(0) + 1) * (grid.cells(1) + 1)); }
-  void clip(std::size_t body, const BodySurface& surface);
+  void clip(std::span<const BodySurface> bodies);
   void sum(std::span<const BodySurface> bodies);
   void collect(CutCells& out);
+  void collect_pieces(std::span<const BodySurface> bodies, CutCells& out);
 };
 
 }  // namespace polynya::geometry

@@ -119,7 +119,6 @@ void PlacedSurface::place_vertices(const BodySurface& surface, const std::array<
     auto& coincidences = coincidences_[begin / vertex_chunk];
     for (std::size_t v = begin; v < end; ++v) {
       Corner& corner = corners_[v];
-      corner.planes = 0;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double x = surface.positions[3 * v + axis];
         if (!std::isfinite(x)) {
@@ -167,15 +166,17 @@ void PlacedSurface::attach_facing_sides(const std::array<LineLocator, 3>& lines)
   facing_.clear();
   for (std::size_t t = 0; t < triangles_.size(); t += 3) {
     const auto corner = [&](std::size_t c) -> Corner& { return corners_[static_cast<std::size_t>(triangles_[t + c])]; };
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int32_t n = lines[axis].intervals();
+      if (corner(0).slab[axis] > 0 && corner(0).slab[axis] < n - 1) continue;  // most of them: far from both walls
       for (const bool last : {false, true}) {
-        const std::int32_t n = lines[axis].intervals();
         const auto near = [&](const Corner& a) { return last ? a.slab[axis] >= n - 1 : a.slab[axis] <= 0; };
         if (!near(corner(0)) || !near(corner(1)) || !near(corner(2))) continue;
         if (rests_on_wall({&corner(0), &corner(1), &corner(2)}, axis, lines[axis], last))
           for (std::size_t c = 0; c < 3; ++c)
             facing_.push_back({triangles_[t + c], static_cast<std::int32_t>(axis), last});
       }
+    }
   }
   for (const Coincidence& at : facing_) {
     const auto axis = static_cast<std::size_t>(at.axis);

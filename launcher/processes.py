@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from launcher import Failure, swap
+from launcher.program_environment import program_environment
 
 PROGRAMS = {"structure": "structure_solver", "ice": "ice_solver", "fluid": "fluid_solver", "coupler": "coupler"}
 SOCKET_PREFIX = "polynya-"
@@ -50,7 +51,7 @@ def plan(scene: dict, names: list[str], folder: Path, binaries: Path, cores: int
         else:
             words = arguments(name, folder, endpoint if coupled else None, run_id)
         front, setting, start_folder = swap.front(scene, name, str(binaries / PROGRAMS[name]))
-        environment = {"OMP_WAIT_POLICY": "passive", "OMP_NUM_THREADS": str(threads_for(scene, name, cores))}
+        environment = {**program_environment(), "OMP_NUM_THREADS": str(threads_for(scene, name, cores))}
         plans.append(Plan(name, front + words, environment, setting, start_folder))
     return plans
 

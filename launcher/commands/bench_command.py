@@ -6,6 +6,7 @@ import os
 import subprocess
 
 from launcher import DONE, FAILED, WRONG_INPUT, build
+from launcher.program_environment import program_environment
 
 PROGRAM = "polynya_bench"
 
@@ -15,6 +16,6 @@ def run(arguments: argparse.Namespace) -> int:
     command = [str(build.program_folder() / PROGRAM)]
     command += ["--only", arguments.name] if arguments.name else []
     command += ["--json"] if arguments.json else []
-    environment = {**os.environ, "OMP_WAIT_POLICY": "passive"}
+    environment = {**os.environ, **program_environment()}
     code = subprocess.run(command, env=environment, check=False).returncode
     return code if code in (DONE, WRONG_INPUT) else FAILED

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 from launcher import WrongInput, build, processes, run_folder, scene
+from launcher.program_environment import program_environment
 
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 TIME = re.compile(r"([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*([a-z]*)")
@@ -41,7 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.gdb:
         command = GDB + command
     threads = arguments.threads or len(os.sched_getaffinity(0))
-    environment = {**os.environ, "OMP_WAIT_POLICY": "passive", "OMP_NUM_THREADS": str(threads)}
+    environment = {**os.environ, **program_environment(), "OMP_NUM_THREADS": str(threads)}
     sys.stdout.flush()
     try:
         os.execvpe(command[0], command, environment)

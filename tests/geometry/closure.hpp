@@ -7,11 +7,9 @@
 
 /// What must hold for every cut, however degenerate.
 struct Closure {
-  double area = 0;           ///< largest |sum of walls - sum of solid faces| of a cell, over the cell's largest face
-  double body_area = 0;      ///< the same per body with the bodies' own fractions
-  double pieces = 0;         ///< largest |sum of pieces + wall area|, over the cell's largest face
-  double fraction = 0;       ///< by how much a union fraction or a volume leaves its range
-  double body_fraction = 0;  ///< by how much the fraction of one body leaves 0..1
+  double area = 0;      ///< largest |sum of walls - sum of solid faces| of a cell, over the cell's largest face
+  double pieces = 0;    ///< largest |sum of pieces + wall area|, over the cell's largest face
+  double fraction = 0;  ///< by how much a union fraction or a volume leaves its range
   bool sorted = true;
 };
 
@@ -24,10 +22,6 @@ inline Closure check_closure(const polynya::geometry::CutCells& cut, const polyn
     for (std::size_t f = 0; f < faces.face.size(); ++f) {
       face_at[axis][faces.face[f]] = f;
       worst.fraction = std::max({worst.fraction, -faces.solid[f], faces.solid[f] - 1});
-      for (std::size_t b = 0; b < cut.bodies; ++b) {
-        const double fraction = faces.body_solid[f * cut.bodies + b];
-        worst.body_fraction = std::max({worst.body_fraction, -fraction, fraction - 1});
-      }
     }
   }
   worst.sorted = worst.sorted && std::ranges::adjacent_find(cut.cell, std::greater_equal{}) == cut.cell.end();
@@ -45,7 +39,6 @@ inline Closure check_closure(const polynya::geometry::CutCells& cut, const polyn
       std::array<std::int64_t, 3> n{grid.cells(0), grid.cells(1), grid.cells(2)};
       ++n[axis];
       double all = 0;
-      std::vector<double> own(cut.bodies, 0.0);
       for (int side : {0, 1}) {
         auto q = p;
         q[axis] += side;
@@ -53,12 +46,9 @@ inline Closure check_closure(const polynya::geometry::CutCells& cut, const polyn
         if (found == face_at[axis].end()) continue;
         const double area = (side == 1 ? 1 : -1) * volume / width[axis];
         all += area * cut.faces[axis].solid[found->second];
-        for (std::size_t b = 0; b < cut.bodies; ++b)
-          own[b] += area * cut.faces[axis].body_solid[found->second * cut.bodies + b];
       }
       for (std::size_t b = 0; b < cut.bodies; ++b) {
         const std::size_t at = (e * cut.bodies + b) * 3 + axis;
-        worst.body_area = std::max(worst.body_area, std::abs(own[b] - cut.wall_area[at]) / largest);
         worst.pieces = std::max(worst.pieces, std::abs(pieces[at]) / largest);
         all -= cut.wall_area[at];
       }

@@ -32,7 +32,7 @@ def main() -> int:
     with open(out / "series" / f"{name}.csv", "w") as series:
         series.write("time [s],vehicle_speed [m/s],contact_force [N]\n0,40,0\n1e-6,40,0\n")
     print(f"[2025-01-01 12:00:00.000] [info] {name} with {os.environ['OMP_NUM_THREADS']} threads, "
-          f"{os.environ['OMP_WAIT_POLICY']}", file=sys.stderr, flush=True)
+          f"{os.environ['OMP_WAIT_POLICY']}, {os.environ['GLIBC_TUNABLES']}", file=sys.stderr, flush=True)
     if deed == "good":
         time.sleep(0.3)
         (out / "logs" / f"{name}.json").write_text(json.dumps({"wall_time": 0.3, "waiting_time": 0.1, "seconds": {}}))

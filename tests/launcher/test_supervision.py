@@ -108,7 +108,8 @@ class GoodEnd(Run):
         result = self.run_scene(self.scene(ice="good"), "--threads", "3")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(set(self.summary()["processes"]), {"ice"})
-        self.assertIn("ice with 3 threads, passive", (self.out / "logs" / "ice.stderr").read_text())
+        told = (self.out / "logs" / "ice.stderr").read_text()
+        self.assertIn("ice with 3 threads, passive, glibc.malloc.hugetlb=1", told)
 
     def test_a_run_may_be_repeated_in_its_folder_and_loses_what_was_there(self):
         self.run_scene(self.scene(ice="good"))
