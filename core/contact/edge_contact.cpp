@@ -295,36 +295,6 @@ void EdgeContact::find(const Body& primary, const Body& secondary, const Surface
     }
 }
 
-double EdgeContact::quiet_time(const Body& primary, const Body& secondary, const SurfaceTopology& first,
-                               const SurfaceTopology& second, double reach, double acceleration) const {
-  if (!held_.empty()) return 0;
-  if (first.convex_edges.empty()) return infinity;
-  Box box, speeds;
-  for (const ConvexEdge& edge : first.convex_edges)
-    for (const std::int32_t v : edge.vertices) {
-      box.include(row(primary.positions, static_cast<std::size_t>(v)));
-      speeds.include(row(primary.velocities, static_cast<std::size_t>(v)));
-    }
-  const Vector3 drift = 0.5 * (speeds.low + speeds.high);
-  const double spread = 0.5 * norm(speeds.high - speeds.low);
-  double quiet = infinity;
-  for (std::size_t f = 0; f + 1 < start_.size(); ++f) {
-    const ConvexEdge& edge = second.convex_edges[f];
-    const Box own = box_of(secondary, edge);
-    double gap = reach;
-    for (std::int32_t k = start_[f]; k < start_[f + 1]; ++k)
-      // The box that encloses an edge is no farther away than the edge.
-      gap = std::min(
-          gap, own.distance(
-                   box_of(primary, first.convex_edges[static_cast<std::size_t>(list_[static_cast<std::size_t>(k)])])));
-    double speed = 0;
-    for (const std::int32_t v : edge.vertices)
-      speed = std::max(speed, norm(row(secondary.velocities, static_cast<std::size_t>(v)) - drift));
-    quiet = std::min(quiet, time_to_close(std::max(gap, own.distance(box)), speed + spread, acceleration));
-  }
-  return quiet;
-}
-
 double EdgeContact::take_dropped_energy() {
   return std::exchange(dropped_energy_, 0.0);
 }

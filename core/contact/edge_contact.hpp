@@ -26,9 +26,6 @@ class EdgeContact {
   /// Appends to the contacts of points, which are there already.
   void find(const Body& primary, const Body& secondary, const SurfaceTopology& first, const SurfaceTopology& second,
             double dt, std::vector<Touch>& touches);
-  /// As PointContact::quiet_time, for the candidates; pairs beyond them are farther than `reach`.
-  double quiet_time(const Body& primary, const Body& secondary, const SurfaceTopology& first,
-                    const SurfaceTopology& second, double reach, double acceleration) const;
   double take_dropped_energy();
   static void set_anchor(const Body& primary, const Body& secondary, const Touch& touch, const Vector3& slip);
 

@@ -88,15 +88,6 @@ const ContactForces& PenaltyContact::evaluate(const Body& primary, const Body& s
   return forces_;
 }
 
-double PenaltyContact::quiet_time(const Body& primary, const Body& secondary, double acceleration) const {
-  double quiet = secondary_points_.quiet_time(secondary, primary, law_.depth_limit, acceleration);
-  if (law_.two_way)
-    quiet = std::min(quiet, primary_points_.quiet_time(primary, secondary, law_.depth_limit, acceleration));
-  if (law_.edges)
-    quiet = std::min(quiet, edges_.quiet_time(primary, secondary, first_, second_, law_.depth_limit, acceleration));
-  return quiet;
-}
-
 SelfContact::SelfContact(const ContactLaw& law)
     : law_(law), margin_(law.depth_limit), points_({law.depth_limit, law.mirror, false}), springs_(law) {}
 

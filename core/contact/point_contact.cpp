@@ -304,34 +304,6 @@ void PointContact::find(const Body& points, const Body& surface, const SurfaceTo
   std::fill(fresh_.begin(), fresh_.end(), std::uint8_t{0});
 }
 
-double PointContact::quiet_time(const Body& points, const Body& surface, double reach, double acceleration) const {
-  if (!held_.empty()) return 0;
-  Box box;
-  Box speeds;
-  for (const std::int32_t v : surface.triangles) {
-    box.include(row(surface.positions, static_cast<std::size_t>(v)));
-    speeds.include(row(surface.velocities, static_cast<std::size_t>(v)));
-  }
-  if (surface.triangle_count() == 0) return infinity;
-  const Vector3 drift = 0.5 * (speeds.low + speeds.high);
-  const double spread = 0.5 * norm(speeds.high - speeds.low);
-  const auto near = candidates_.near_points();
-  double quiet = infinity;
-  for (std::size_t i = 0, k = 0; i < points.vertex_count(); ++i) {
-    while (k < near.size() && static_cast<std::size_t>(near[k]) < i) ++k;
-    const Vector3 p = row(points.positions, i);
-    double distance = points.radii[i] + reach;  // at least: all that is nearer is among the candidates
-    if (k < near.size() && static_cast<std::size_t>(near[k]) == i)
-      for (const std::int32_t t : candidates_.of(k)) {
-        const Corners x = corners_of(surface, static_cast<std::size_t>(t));
-        distance = std::min(distance, std::sqrt(closest_point_on_triangle(p, x.a, x.b, x.c).squared_distance));
-      }
-    const double gap = std::max(distance, box.distance(p)) - points.radii[i];
-    quiet = std::min(quiet, time_to_close(gap, norm(row(points.velocities, i) - drift) + spread, acceleration));
-  }
-  return quiet;
-}
-
 double PointContact::take_dropped_energy() {
   return std::exchange(dropped_energy_, 0.0);
 }

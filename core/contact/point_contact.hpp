@@ -43,10 +43,6 @@ class PointContact {
   /// Energy that springs of pairs held when they ended, J, since the last call.
   double take_dropped_energy();
 
-  /// Smallest over free points of the time until the gap could close, s; 0 where a pair is held. `reach` (m): beyond
-  /// radius + reach no distance is computed.
-  double quiet_time(const Body& points, const Body& surface, double reach, double acceleration) const;
-
   /// Fixes the tangential spring of a touch so that its stretch is `slip`.
   static void set_anchor(const Body& points, const Body& surface, const Touch& touch, const Vector3& slip);
 
