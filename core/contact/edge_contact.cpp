@@ -99,7 +99,7 @@ double overshoot(double fraction) {
 }  // namespace
 
 void EdgeContact::set_topology(const Body& primary, const Body& secondary, const SurfaceTopology& first,
-                               const SurfaceTopology& second) {
+                               const SurfaceTopology& second, std::vector<LostForce>& lost) {
   const auto names_of = [](const Body& body, const SurfaceTopology& topology) {
     std::vector<Names> names;
     for (const ConvexEdge& edge : topology.convex_edges) {
@@ -124,6 +124,7 @@ void EdgeContact::set_topology(const Body& primary, const Body& secondary, const
       const auto new_e = in_first.find({e.a, e.b}), new_f = in_second.find({f.a, f.b});
       if (new_e == in_first.end() || new_f == in_second.end()) {
         dropped_energy_ += pair.state.held_energy;
+        if (pair.state.normal_force > 0) lost.push_back({pair.state.place, pair.state.normal_force});
         continue;
       }
       pair.first = new_e->second;

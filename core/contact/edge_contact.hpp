@@ -3,6 +3,7 @@
 
 #include "core/contact/body.hpp"
 #include "core/contact/box_hash.hpp"
+#include "core/contact/inheritance.hpp"
 #include "core/contact/surface_topology.hpp"
 #include "core/contact/touch.hpp"
 
@@ -17,9 +18,9 @@ namespace polynya::contact {
 /// the vertices too.
 class EdgeContact {
  public:
-  /// Keeps the pairs whose vertices go on to exist.
+  /// Keeps the pairs whose vertices go on to exist. Appends the forces of the others.
   void set_topology(const Body& primary, const Body& secondary, const SurfaceTopology& first,
-                    const SurfaceTopology& second);
+                    const SurfaceTopology& second, std::vector<LostForce>& lost);
   /// Candidates within reach (m) as of now.
   void search(const Body& primary, const Body& secondary, const SurfaceTopology& first, const SurfaceTopology& second,
               double reach);

@@ -22,6 +22,7 @@ struct PairState {
   double compressed = 0;       ///< m, depth beyond the offset
   double held_energy = 0;      ///< J, in both springs
   double dropped = 0;          ///< J, see ended(), not yet booked
+  Vector3 place{};             ///< m, where it acted in the last step
   std::int32_t anchor = -1;    ///< triangle on which the tangential spring is fixed; -1: not yet
   Vector3 anchor_weights{};    ///< where: barycentric (edges: fractions along both)
 };
