@@ -90,7 +90,7 @@ TEST(Recorder, MessagesComeBackBitForBitInOrder) {
   }
 }
 
-TEST(Recorder, LargeArraysComeBackFromManyFilesCompressedOrNot) {
+TEST(Recorder, LargeArraysComeBackFromManyFiles) {
   const SocketFolder folder;
   Recorder::Options options = options_in(folder);
   options.segment_bytes = 3 << 20;
@@ -99,7 +99,7 @@ TEST(Recorder, LargeArraysComeBackFromManyFilesCompressedOrNot) {
     written.push_back(surface(window, 1e-6 * window, 60000));  // 1.4 MB of noise
     std::vector<std::int64_t> ids(200000);
     for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int64_t>(i) + window;
-    written.back().add<std::int64_t>("ids", {200000}, ids);  // 1.6 MB that compress to a tenth
+    written.back().add<std::int64_t>("ids", {200000}, ids);
   }
   Recorder recorder(options);
   for (const Message& message : written) recorder.note("ice", Sender::participant, message);
@@ -107,10 +107,9 @@ TEST(Recorder, LargeArraysComeBackFromManyFilesCompressedOrNot) {
   const std::vector<RecordedMessage> read = read_all(options.folder, "ice");
   ASSERT_EQ(read.size(), written.size());
   for (std::size_t i = 0; i < read.size(); ++i) expect_equal(read[i].message, written[i]);
-  std::size_t bytes = 0, files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(options.folder)) bytes += entry.file_size(), ++files;
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(options.folder)) ++files;
   EXPECT_EQ(files, 3u);
-  EXPECT_LT(bytes, 6u * 1'800'000u);
 }
 
 TEST(Recorder, LoadsCarryTheTimeOfTheSurfaceTheyAnswer) {
