@@ -14,8 +14,7 @@ exchange::Recorder::Options options_of(const scene::Record& record) {
   exchange::Recorder::Options options;
   std::istringstream names(record.participants);
   for (std::string name; std::getline(names, name, ',');) options.participants.push_back(name);
-  options.from = record.from;
-  options.until = record.until.value_or(infinity);
+  options.selection = {record.times, record.windows};
   if (record.has_region())
     options.region = {record.x_min.value_or(-infinity), record.y_min.value_or(-infinity),
                       record.z_min.value_or(-infinity), record.x_max.value_or(infinity),

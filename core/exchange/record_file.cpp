@@ -20,7 +20,7 @@ using hdf5::check;
 using hdf5::Handle;
 
 constexpr const char* format_name = "polynya-record";
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 constexpr std::size_t batch_bytes = 1 << 20;
 constexpr std::size_t large_array = 1 << 15;
 
@@ -71,8 +71,9 @@ void write_label(hid_t file, const RecordLabel& label) {
   hdf5::write_numbers<std::int64_t>(file, "protocol", {&protocol, 1});
   hdf5::write_text(file, "run", label.run);
   hdf5::write_text(file, "participant", label.participant);
-  hdf5::write_numbers<double>(file, "from", {&label.from, 1});
-  hdf5::write_numbers<double>(file, "until", {&label.until, 1});
+  const RecordSelection& selection = label.selection;
+  if (!selection.times.empty()) hdf5::write_numbers<double>(file, "times", selection.times);
+  if (!selection.windows.empty()) hdf5::write_numbers<std::int64_t>(file, "windows", selection.windows);
   if (label.region) hdf5::write_numbers<double>(file, "region", *label.region);
 }
 
@@ -215,11 +216,9 @@ RecordSegment read_all(const std::string& path, RecordLabel& label) {
   if (hdf5::read_numbers<std::int64_t>(file, "version").at(0) != format_version ||
       hdf5::read_numbers<std::int64_t>(file, "protocol").at(0) != protocol_version)
     throw RecordError("was written by another version of the recorder or of the protocol");
-  label = {hdf5::read_text(file, "run"),
-           hdf5::read_text(file, "participant"),
-           hdf5::read_numbers<double>(file, "from").at(0),
-           hdf5::read_numbers<double>(file, "until").at(0),
-           {}};
+  label = {hdf5::read_text(file, "run"), hdf5::read_text(file, "participant"), {}, {}};
+  if (H5Aexists(file, "times") > 0) label.selection.times = hdf5::read_numbers<double>(file, "times");
+  if (H5Aexists(file, "windows") > 0) label.selection.windows = hdf5::read_numbers<std::int64_t>(file, "windows");
   if (H5Aexists(file, "region") > 0) {
     const std::vector<double> box = hdf5::read_numbers<double>(file, "region");
     std::copy_n(box.begin(), std::min<std::size_t>(box.size(), 6), label.region.emplace().begin());

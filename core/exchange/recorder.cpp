@@ -25,7 +25,7 @@ using Seconds = std::chrono::duration<double>;
 constexpr std::size_t batch_bytes = 2 << 20;
 constexpr double share_at_risk = 0.01;  ///< of a long run, that may lie in files not closed yet
 /// Files grow with the record: what is in memory still when the run ends keeps it waiting, and many files are a burden.
-constexpr std::size_t first_file_bytes = 8 << 20, files_of_a_record = 32;
+constexpr std::size_t first_file_bytes = 16 << 20, files_of_a_record = 32;
 
 struct Noted {
   std::string participant;
@@ -88,6 +88,7 @@ double processor_seconds() {
 struct Recorder::State {
   Options options;
   std::map<std::string, Progress> progress;           // of the run's thread
+  std::int64_t window = -1;                           // likewise, of the run
   std::map<std::string, Conversation> conversations;  // of the recorder's thread
   std::size_t taken_bytes = 0;                        // likewise
   Statistics statistics;
@@ -107,7 +108,7 @@ struct Recorder::State {
     const auto& chosen = options.participants;
     if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), participant) == chosen.end()) return false;
     // What is said before the first window describes surfaces and grid; later messages cannot be read without it.
-    return now.time <= options.until && (now.time >= options.from || now.window < 0);
+    return now.window < 0 || options.selection.holds(window, now.time);
   }
 
   void put(Noted&& noted) {
@@ -169,8 +170,7 @@ struct Recorder::State {
   void take(Noted&& noted) {
     Conversation& conversation = conversations[noted.participant];
     if (conversation.label.participant.empty()) {
-      const bool all = options.until == std::numeric_limits<double>::infinity();
-      conversation.label = {options.run, noted.participant, options.from, all ? 0 : options.until, options.region};
+      conversation.label = {options.run, noted.participant, options.selection, options.region};
       if (options.region) conversation.region.emplace(*options.region);
     }
     taken_bytes += size_of(noted.recorded.message);
@@ -216,6 +216,8 @@ void Recorder::note(const std::string& participant, Sender sender, const Message
   const auto start = Clock::now();
   Progress& now = state_->progress[participant];
   now.take(message.header);
+  // The fluid counts spans; what it says belongs to the window in which it is said.
+  if (message.header.contains("window")) state_->window = now.window;
   if (!state_->wanted(participant, now)) return;
   state_->put({participant, {sender, now.window, now.time, message}});
   state_->statistics.noting_seconds += Seconds(Clock::now() - start).count();

@@ -21,8 +21,7 @@ class Recorder {
     std::string folder;                     ///< RUN/record
     std::string run;                        ///< identifier of the run
     std::vector<std::string> participants;  ///< empty: all
-    double from = 0;  ///< s, first time of interest; a record from later than 0 cannot be replayed
-    double until = std::numeric_limits<double>::infinity();  ///< s, last one
+    RecordSelection selection;  ///< one that does not begin at the start cannot be replayed
     std::optional<std::array<double, 6>> region;             ///< m, see RecordRegion; such a record cannot be replayed
     double segment_seconds = 2;  ///< longest wall time between two files; a hundredth of the run if that is more
     std::size_t segment_bytes = 32 << 20;  ///< most of one file; early ones are smaller
