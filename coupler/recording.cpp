@@ -14,8 +14,7 @@ exchange::Recorder::Options options_of(const scene::Record& record) {
   exchange::Recorder::Options options;
   std::istringstream names(record.participants);
   for (std::string name; std::getline(names, name, ',');) options.participants.push_back(name);
-  options.from = record.from;
-  options.until = record.until.value_or(infinity);
+  options.selection = {record.times, record.windows};
   if (record.has_region())
     options.region = {record.x_min.value_or(-infinity), record.y_min.value_or(-infinity),
                       record.z_min.value_or(-infinity), record.x_max.value_or(infinity),
@@ -39,9 +38,8 @@ std::unique_ptr<exchange::Recorder> start_recorder(const scene::Scene& scene, co
 void finish_recorder(exchange::Recorder& recorder) {
   const exchange::Recorder::Statistics s = recorder.close();
   spdlog::info(
-      "record: {} messages, {:.1f} MB before compression; took the coupler {:.2f} s in all windows and {:.2f} s at the "
-      "end, and "
-      "{:.2f} s of processor time beside it",
+      "record: {} messages, {:.1f} MB; took the coupler {:.2f} s in all windows and {:.2f} s at the end, and {:.2f} s of "
+      "processor time beside it",
       s.messages, 1e-6 * static_cast<double>(s.bytes), s.noting_seconds, s.closing_seconds, s.busy_seconds);
 }
 

@@ -1,7 +1,5 @@
 #pragma once
-#include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -35,23 +33,7 @@ struct Box {
     }
     return std::sqrt(squared);
   }
-  /// Distance between two boxes, m; 0 where they overlap.
-  double distance(const Box& other) const {
-    double squared = 0;
-    for (std::size_t d = 0; d < 3; ++d) {
-      const double away = std::max({0.0, other.low[d] - high[d], low[d] - other.high[d]});
-      squared += away * away;
-    }
-    return std::sqrt(squared);
-  }
 };
-
-/// Time (s) in which a gap (m) closes at this speed, growing by the acceleration: gap = speed t + acceleration t^2 / 2.
-inline double time_to_close(double gap, double speed, double acceleration) {
-  if (gap <= 0) return 0;
-  const double divisor = speed + std::sqrt(speed * speed + 2 * acceleration * gap);  // nothing cancels
-  return divisor > 0 ? 2 * gap / divisor : std::numeric_limits<double>::infinity();
-}
 
 /// Broad phase of contact: boxes filed under the cells of a uniform grid that they touch, cells hashed into a table, so
 /// that memory does not depend on how far things fly apart. Buffers are kept between builds.

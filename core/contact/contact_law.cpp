@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "core/contact/edge_contact.hpp"
 #include "core/contact/point_contact.hpp"
@@ -40,6 +41,10 @@ ContactSprings::ContactSprings(const ContactLaw& law) : law_(law) {
   if (4 * law.damping * std::sqrt(law.stiffness_factor) > 2)
     throw std::invalid_argument("contact: damping x sqrt(stiffness factor) must not exceed 0.5, it is " +
                                 std::to_string(law.damping * std::sqrt(law.stiffness_factor)));
+}
+
+void ContactSprings::topology_changed(std::vector<LostForce> lost) {
+  lost_ = std::move(lost);
 }
 
 void ContactSprings::limit_stiffness(const Body& primary, const Body& secondary, double dt,
@@ -131,6 +136,9 @@ void ContactSprings::push(const Body& primary, const Body& secondary, double dt,
   });
   forces.damping_loss += 0.5 * dt * touch.damping_force * touch.approach;
   state.compressed = compressed;
+  const Body& pushed = touch.swapped ? primary : secondary;
+  state.place = touch.pushed_weights[0] * row(pushed.positions, static_cast<std::size_t>(touch.pushed[0])) +
+                touch.pushed_weights[1] * row(pushed.positions, static_cast<std::size_t>(touch.pushed[1]));
   state.held_energy = held_energy(state, touch.stiffness, compressed);
   forces.stored_energy += state.held_energy;
   forces.deepest = std::max(forces.deepest, compressed);
@@ -146,6 +154,7 @@ void ContactSprings::apply(const Body& primary, const Body& secondary, double dt
   forces.damping_loss = settled_damping_;
   settled_damping_ = 0;
   limit_stiffness(primary, secondary, dt, touches);
+  if (lost_) inherit(primary, secondary, *std::exchange(lost_, std::nullopt), touches);
   for (Touch& touch : touches) push(primary, secondary, dt, touch, forces);
 }
 

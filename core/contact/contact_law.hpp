@@ -1,9 +1,11 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/contact/body.hpp"
+#include "core/contact/inheritance.hpp"
 #include "core/contact/touch.hpp"
 
 namespace polynya::contact {
@@ -51,6 +53,9 @@ class ContactSprings {
   /// Throws std::invalid_argument on a law whose damping would not be stable.
   explicit ContactSprings(const ContactLaw& law);
 
+  /// Forces of pairs that the last change of topology ended; the next apply hands them on (inheritance.hpp).
+  void topology_changed(std::vector<LostForce> lost);
+
   /// Adds to the forces, which have the sizes of the bodies; fills in the energies. Arrays by touch are kept as
   /// the caller's until the next call.
   void apply(const Body& primary, const Body& secondary, double dt, std::vector<Touch>& touches, ContactForces& forces);
@@ -67,6 +72,7 @@ class ContactSprings {
 
   ContactLaw law_;
   std::vector<double> load_primary_, load_secondary_;  // sum of stiffness x weight at each vertex, N/m
+  std::optional<std::vector<LostForce>> lost_;         // since the last change of topology
   double settled_damping_ = 0;
 };
 

@@ -99,7 +99,7 @@ double overshoot(double fraction) {
 }  // namespace
 
 void EdgeContact::set_topology(const Body& primary, const Body& secondary, const SurfaceTopology& first,
-                               const SurfaceTopology& second) {
+                               const SurfaceTopology& second, std::vector<LostForce>& lost) {
   const auto names_of = [](const Body& body, const SurfaceTopology& topology) {
     std::vector<Names> names;
     for (const ConvexEdge& edge : topology.convex_edges) {
@@ -124,6 +124,7 @@ void EdgeContact::set_topology(const Body& primary, const Body& secondary, const
       const auto new_e = in_first.find({e.a, e.b}), new_f = in_second.find({f.a, f.b});
       if (new_e == in_first.end() || new_f == in_second.end()) {
         dropped_energy_ += pair.state.held_energy;
+        if (pair.state.normal_force > 0) lost.push_back({pair.state.place, pair.state.normal_force});
         continue;
       }
       pair.first = new_e->second;
@@ -293,36 +294,6 @@ void EdgeContact::find(const Body& primary, const Body& secondary, const Surface
       touch.state = &pair.state;
       touches.push_back(touch);
     }
-}
-
-double EdgeContact::quiet_time(const Body& primary, const Body& secondary, const SurfaceTopology& first,
-                               const SurfaceTopology& second, double reach, double acceleration) const {
-  if (!held_.empty()) return 0;
-  if (first.convex_edges.empty()) return infinity;
-  Box box, speeds;
-  for (const ConvexEdge& edge : first.convex_edges)
-    for (const std::int32_t v : edge.vertices) {
-      box.include(row(primary.positions, static_cast<std::size_t>(v)));
-      speeds.include(row(primary.velocities, static_cast<std::size_t>(v)));
-    }
-  const Vector3 drift = 0.5 * (speeds.low + speeds.high);
-  const double spread = 0.5 * norm(speeds.high - speeds.low);
-  double quiet = infinity;
-  for (std::size_t f = 0; f + 1 < start_.size(); ++f) {
-    const ConvexEdge& edge = second.convex_edges[f];
-    const Box own = box_of(secondary, edge);
-    double gap = reach;
-    for (std::int32_t k = start_[f]; k < start_[f + 1]; ++k)
-      // The box that encloses an edge is no farther away than the edge.
-      gap = std::min(
-          gap, own.distance(
-                   box_of(primary, first.convex_edges[static_cast<std::size_t>(list_[static_cast<std::size_t>(k)])])));
-    double speed = 0;
-    for (const std::int32_t v : edge.vertices)
-      speed = std::max(speed, norm(row(secondary.velocities, static_cast<std::size_t>(v)) - drift));
-    quiet = std::min(quiet, time_to_close(std::max(gap, own.distance(box)), speed + spread, acceleration));
-  }
-  return quiet;
 }
 
 double EdgeContact::take_dropped_energy() {

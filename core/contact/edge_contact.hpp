@@ -3,6 +3,7 @@
 
 #include "core/contact/body.hpp"
 #include "core/contact/box_hash.hpp"
+#include "core/contact/inheritance.hpp"
 #include "core/contact/surface_topology.hpp"
 #include "core/contact/touch.hpp"
 
@@ -17,18 +18,15 @@ namespace polynya::contact {
 /// the vertices too.
 class EdgeContact {
  public:
-  /// Keeps the pairs whose vertices go on to exist.
+  /// Keeps the pairs whose vertices go on to exist. Appends the forces of the others.
   void set_topology(const Body& primary, const Body& secondary, const SurfaceTopology& first,
-                    const SurfaceTopology& second);
+                    const SurfaceTopology& second, std::vector<LostForce>& lost);
   /// Candidates within reach (m) as of now.
   void search(const Body& primary, const Body& secondary, const SurfaceTopology& first, const SurfaceTopology& second,
               double reach);
   /// Appends to the contacts of points, which are there already.
   void find(const Body& primary, const Body& secondary, const SurfaceTopology& first, const SurfaceTopology& second,
             double dt, std::vector<Touch>& touches);
-  /// As PointContact::quiet_time, for the candidates; pairs beyond them are farther than `reach`.
-  double quiet_time(const Body& primary, const Body& secondary, const SurfaceTopology& first,
-                    const SurfaceTopology& second, double reach, double acceleration) const;
   double take_dropped_energy();
   static void set_anchor(const Body& primary, const Body& secondary, const Touch& touch, const Vector3& slip);
 

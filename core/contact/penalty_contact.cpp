@@ -1,6 +1,7 @@
 #include "core/contact/penalty_contact.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace polynya::contact {
 namespace {
@@ -50,11 +51,13 @@ void PenaltyContact::set_topology(const Body& primary, const Body& secondary) {
     first_ = make_surface_topology(primary.triangles, primary.positions, law_.mirror);
     primary_triangles_.assign(primary.triangles.begin(), primary.triangles.end());
   }
-  secondary_points_.set_topology(secondary, primary);
+  std::vector<LostForce> lost;
+  secondary_points_.set_topology(secondary, primary, lost);
   if (law_.two_way || law_.edges)
     second_ = make_surface_topology(secondary.triangles, secondary.positions, law_.mirror);
-  if (law_.two_way) primary_points_.set_topology(primary, secondary);
-  if (law_.edges) edges_.set_topology(primary, secondary, first_, second_);
+  if (law_.two_way) primary_points_.set_topology(primary, secondary, lost);
+  if (law_.edges) edges_.set_topology(primary, secondary, first_, second_, lost);
+  springs_.topology_changed(std::move(lost));
   outdated_ = true;
 }
 
@@ -88,15 +91,6 @@ const ContactForces& PenaltyContact::evaluate(const Body& primary, const Body& s
   return forces_;
 }
 
-double PenaltyContact::quiet_time(const Body& primary, const Body& secondary, double acceleration) const {
-  double quiet = secondary_points_.quiet_time(secondary, primary, law_.depth_limit, acceleration);
-  if (law_.two_way)
-    quiet = std::min(quiet, primary_points_.quiet_time(primary, secondary, law_.depth_limit, acceleration));
-  if (law_.edges)
-    quiet = std::min(quiet, edges_.quiet_time(primary, secondary, first_, second_, law_.depth_limit, acceleration));
-  return quiet;
-}
-
 SelfContact::SelfContact(const ContactLaw& law)
     : law_(law), margin_(law.depth_limit), points_({law.depth_limit, law.mirror, false}), springs_(law) {}
 
@@ -104,7 +98,9 @@ void SelfContact::set_topology(const Body& body) {
   springs_.settle_as_before(last_step_, touches_);
   touches_.clear();
   topology_ = make_surface_topology(body.triangles, body.positions, law_.mirror);
-  points_.set_topology(body, body);
+  std::vector<LostForce> lost;
+  points_.set_topology(body, body, lost);
+  springs_.topology_changed(std::move(lost));
   outdated_ = true;
 }
 

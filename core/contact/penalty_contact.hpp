@@ -32,12 +32,6 @@ class PenaltyContact {
   /// over the next step, of about the same length. Positions in the last step are taken to be straight: x - dt v.
   const ContactForces& evaluate(const Body& primary, const Body& secondary, double dt);
 
-  /// Lower bound of the time (s) until anything can touch that evaluate looks at, from the configuration evaluated
-  /// last: every gap over the largest speed at which it can close, if no vertex is accelerated by more than
-  /// `acceleration` (m/s^2) relative to any of the other body. 0 while anything touches. Edges count only if they are
-  /// looked at.
-  double quiet_time(const Body& primary, const Body& secondary, double acceleration) const;
-
   std::size_t searches() const { return searches_; }  ///< so far
 
  private:

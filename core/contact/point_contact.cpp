@@ -102,7 +102,7 @@ bool PointContact::follow(PairState& state, std::span<const std::int32_t> renumb
   return true;
 }
 
-void PointContact::set_topology(const Body& points, const Body& surface) {
+void PointContact::set_topology(const Body& points, const Body& surface, std::vector<LostForce>& lost) {
   std::unordered_map<std::int64_t, std::size_t> new_point;
   for (std::size_t i = 0; i < points.vertex_count(); ++i) new_point[points.ids[i]] = i;
   const std::vector<std::int32_t> renumbered = renumber_triangles(surface);
@@ -110,7 +110,6 @@ void PointContact::set_topology(const Body& points, const Body& surface) {
   for (const std::int64_t id : ids_)
     if (const auto found = new_point.find(id); found != new_point.end()) fresh_[found->second] = 0;
   std::vector<PairState> states(points.vertex_count());
-  lost_.clear();
   for (std::size_t k = 0; k < held_.size(); ++k) {
     const auto old = static_cast<std::size_t>(held_[k]);
     PairState state = states_[old];
@@ -120,20 +119,13 @@ void PointContact::set_topology(const Body& points, const Body& surface) {
       continue;
     }
     dropped_energy_ += states_[old].held_energy;
-    if (state.normal_force > 0) lost_.push_back({row(last_positions_, k), state.normal_force});
+    if (state.normal_force > 0) lost.push_back({state.place, state.normal_force});
   }
   states_ = std::move(states);
   ids_.assign(points.ids.begin(), points.ids.end());
   held_.clear();
-  last_positions_.clear();
   for (std::size_t i = 0; i < states_.size(); ++i)
-    if (states_[i].feature >= 0) remember_held(points, i);
-}
-
-void PointContact::remember_held(const Body& points, std::size_t point) {
-  held_.push_back(static_cast<std::int32_t>(point));
-  const Vector3 p = row(points.positions, point);
-  last_positions_.insert(last_positions_.end(), p.begin(), p.end());
+    if (states_[i].feature >= 0) held_.push_back(static_cast<std::int32_t>(i));
 }
 
 void PointContact::begin(std::size_t triangle, std::size_t point, bool inside, bool accepted) {
@@ -249,20 +241,6 @@ bool PointContact::find_one(const Body& points, const Body& surface, const Surfa
   return hold(points, surface, topology, exclusion, point, touch);
 }
 
-void PointContact::inherit(const Body& points, std::vector<Touch>& touches, std::size_t first) {
-  for (const LostForce& lost : lost_) {
-    double least = infinity;
-    PairState* heir = nullptr;
-    for (std::size_t k = first; k < touches.size(); ++k) {
-      if (!touches[k].state->born) continue;
-      const Vector3 d = row(points.positions, static_cast<std::size_t>(touches[k].pushed[0])) - lost.place;
-      if (dot(d, d) < least) least = dot(d, d), heir = touches[k].state;
-    }
-    if (heir != nullptr) heir->inherited_force += lost.force;
-  }
-  lost_.clear();
-}
-
 void PointContact::find(const Body& points, const Body& surface, const SurfaceTopology& topology,
                         const Exclusion& exclusion, double dt, double share, std::vector<Touch>& touches) {
   // In the order of the points, whether candidates are at hand or not: sums must not depend on when a search was.
@@ -288,48 +266,17 @@ void PointContact::find(const Body& points, const Body& surface, const SurfaceTo
     }
   });
   held_.clear();
-  last_positions_.clear();
-  const std::size_t first = touches.size();
   for (std::size_t k = 0; k < active_.size(); ++k) {
     const auto i = static_cast<std::size_t>(active_[k]);
     dropped_energy_ += states_[i].dropped;
     states_[i].dropped = 0;
     if (touched_[k] == 0) continue;
-    remember_held(points, i);
+    held_.push_back(active_[k]);
     touches.push_back(found_[k]);
     // A loose particle has no surface of its own whose other side could carry half of the contact.
     touches.back().share = points.radii[i] > 0 ? 1 : share;
   }
-  if (!lost_.empty()) inherit(points, touches, first);
   std::fill(fresh_.begin(), fresh_.end(), std::uint8_t{0});
-}
-
-double PointContact::quiet_time(const Body& points, const Body& surface, double reach, double acceleration) const {
-  if (!held_.empty()) return 0;
-  Box box;
-  Box speeds;
-  for (const std::int32_t v : surface.triangles) {
-    box.include(row(surface.positions, static_cast<std::size_t>(v)));
-    speeds.include(row(surface.velocities, static_cast<std::size_t>(v)));
-  }
-  if (surface.triangle_count() == 0) return infinity;
-  const Vector3 drift = 0.5 * (speeds.low + speeds.high);
-  const double spread = 0.5 * norm(speeds.high - speeds.low);
-  const auto near = candidates_.near_points();
-  double quiet = infinity;
-  for (std::size_t i = 0, k = 0; i < points.vertex_count(); ++i) {
-    while (k < near.size() && static_cast<std::size_t>(near[k]) < i) ++k;
-    const Vector3 p = row(points.positions, i);
-    double distance = points.radii[i] + reach;  // at least: all that is nearer is among the candidates
-    if (k < near.size() && static_cast<std::size_t>(near[k]) == i)
-      for (const std::int32_t t : candidates_.of(k)) {
-        const Corners x = corners_of(surface, static_cast<std::size_t>(t));
-        distance = std::min(distance, std::sqrt(closest_point_on_triangle(p, x.a, x.b, x.c).squared_distance));
-      }
-    const double gap = std::max(distance, box.distance(p)) - points.radii[i];
-    quiet = std::min(quiet, time_to_close(gap, norm(row(points.velocities, i) - drift) + spread, acceleration));
-  }
-  return quiet;
 }
 
 double PointContact::take_dropped_energy() {

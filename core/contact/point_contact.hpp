@@ -4,6 +4,7 @@
 
 #include "core/contact/candidates.hpp"
 #include "core/contact/depth.hpp"
+#include "core/contact/inheritance.hpp"
 #include "core/contact/touch.hpp"
 
 namespace polynya::contact {
@@ -27,9 +28,9 @@ class PointContact {
   };
   explicit PointContact(Settings settings) : settings_(settings) {}
 
-  /// Points or surface are others than before; pairs whose point and triangle go on to exist are kept. Forces of pairs
-  /// whose point or triangle vanished go to the new point that touches nearest to where they acted.
-  void set_topology(const Body& points, const Body& surface);
+  /// Points or surface are others than before; pairs whose point and triangle go on to exist are kept. Appends the
+  /// forces of the others.
+  void set_topology(const Body& points, const Body& surface, std::vector<LostForce>& lost);
 
   void search(const Body& points, const Body& surface, const SurfaceTopology& topology, const Exclusion& exclusion,
               double reach) {
@@ -43,18 +44,10 @@ class PointContact {
   /// Energy that springs of pairs held when they ended, J, since the last call.
   double take_dropped_energy();
 
-  /// Smallest over free points of the time until the gap could close, s; 0 where a pair is held. `reach` (m): beyond
-  /// radius + reach no distance is computed.
-  double quiet_time(const Body& points, const Body& surface, double reach, double acceleration) const;
-
   /// Fixes the tangential spring of a touch so that its stretch is `slip`.
   static void set_anchor(const Body& points, const Body& surface, const Touch& touch, const Vector3& slip);
 
  private:
-  struct LostForce {
-    Vector3 place{};
-    double force = 0;
-  };
   bool find_one(const Body& points, const Body& surface, const SurfaceTopology& topology, const Exclusion& exclusion,
                 double dt, std::size_t point, std::span<const std::int32_t> candidates, Touch& touch);
   bool hold(const Body& points, const Body& surface, const SurfaceTopology& topology, const Exclusion& exclusion,
@@ -63,20 +56,16 @@ class PointContact {
   /// For each triangle of the old surface its number in the new one, -1 if it vanished.
   std::vector<std::int32_t> renumber_triangles(const Body& surface);
   bool follow(PairState& state, std::span<const std::int32_t> renumbered);
-  void remember_held(const Body& points, std::size_t point);
-  void inherit(const Body& points, std::vector<Touch>& touches, std::size_t first);
 
   Settings settings_;
   Candidates candidates_;
   std::vector<PairState> states_;
   std::vector<std::uint8_t> fresh_;  // [point] seen for the first time
   std::vector<std::int64_t> ids_;
-  std::vector<double> last_positions_;  // of the points that touched, for forces that vanish
   std::vector<std::int64_t> triangle_ids_;
   std::vector<std::int32_t> held_, active_, candidate_of_;
   std::vector<Touch> found_;
   std::vector<std::uint8_t> touched_;
-  std::vector<LostForce> lost_;
   double dropped_energy_ = 0;
 };
 

@@ -22,6 +22,7 @@ struct PairState {
   double compressed = 0;       ///< m, depth beyond the offset
   double held_energy = 0;      ///< J, in both springs
   double dropped = 0;          ///< J, see ended(), not yet booked
+  Vector3 place{};             ///< m, where it acted in the last step
   std::int32_t anchor = -1;    ///< triangle on which the tangential spring is fixed; -1: not yet
   Vector3 anchor_weights{};    ///< where: barycentric (edges: fractions along both)
 };
@@ -41,11 +42,11 @@ struct Touch {
   std::array<double, 2> pushed_weights{1, 0};
   std::array<std::int32_t, 3> opposed{};
   std::array<double, 3> opposed_weights{};
-  Vector3 push{};    ///< minus the gradient of the depth, length 1 but on a rim
-  double depth = 0;  ///< m
-  Vector3 slip{};    ///< m, stretch of the tangential spring if it stuck
+  Vector3 push{};       ///< minus the gradient of the depth, length 1 but on a rim
+  double depth = 0;     ///< m
+  Vector3 slip{};       ///< m, stretch of the tangential spring if it stuck
   bool turned = false;  ///< the spring is set on a face of another direction and has to be set anew
-  double share = 1;  ///< of the stiffness of a pair: half where both surfaces' vertices are looked at
+  double share = 1;     ///< of the stiffness of a pair: half where both surfaces' vertices are looked at
   PairState* state = nullptr;
   // Filled in by the law.
   double stiffness = 0;      ///< N/m

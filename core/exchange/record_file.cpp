@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "core/exchange/byte_entropy.hpp"
 #include "core/exchange/errors.hpp"
 #include "core/exchange/hdf5_handle.hpp"
 #include "core/exchange/wire.hpp"
@@ -21,12 +20,9 @@ using hdf5::check;
 using hdf5::Handle;
 
 constexpr const char* format_name = "polynya-record";
-constexpr std::int64_t format_version = 1;
-constexpr std::size_t chunk_bytes = 1 << 18;
+constexpr std::int64_t format_version = 2;
 constexpr std::size_t batch_bytes = 1 << 20;
-constexpr std::size_t smallest_compressed = 1 << 12;
-constexpr unsigned deflate_level = 1;
-constexpr double most_entropy = 0.25;  // of what is compressed: the rest takes longer than it saves
+constexpr std::size_t large_array = 1 << 15;
 
 hid_t type_of(const std::string& type) {
   if (type == "f8") return H5T_IEEE_F64LE;
@@ -46,26 +42,15 @@ Handle group(hid_t parent, const std::string& name) {
   return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name};
 }
 
-/// A data set, empty yet. Compressed if that is worth the time.
-Handle make_rows(hid_t parent, const char* name, hid_t type, const std::vector<hsize_t>& shape, bool compressed) {
-  const int rank = static_cast<int>(shape.size());
-  const Handle space(H5Screate_simple(rank, shape.data(), nullptr), H5Sclose, name);
-  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
-  hsize_t row = H5Tget_size(type);
-  for (std::size_t i = 1; i < shape.size(); ++i) row *= shape[i];
-  if (compressed && row * shape[0] > smallest_compressed) {
-    std::vector<hsize_t> chunk = shape;
-    chunk[0] = std::clamp<hsize_t>(chunk_bytes / row, 1, shape[0]);
-    check(H5Pset_chunk(properties, rank, chunk.data()), name);
-    check(H5Pset_shuffle(properties), name);
-    check(H5Pset_deflate(properties, deflate_level), name);
-  }
-  return {H5Dcreate2(parent, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, name};
+/// A data set, empty yet. Not compressed: even the fastest filter takes longer than to write what it saves.
+Handle make_rows(hid_t parent, const char* name, hid_t type, const std::vector<hsize_t>& shape) {
+  const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, name);
+  return {H5Dcreate2(parent, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, name};
 }
 
 template <class T>
 void write_column(hid_t parent, const char* name, hid_t type, const std::vector<T>& values) {
-  const Handle set = make_rows(parent, name, type, {values.size()}, true);
+  const Handle set = make_rows(parent, name, type, {values.size()});
   if (!values.empty()) check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
 }
 
@@ -86,8 +71,9 @@ void write_label(hid_t file, const RecordLabel& label) {
   hdf5::write_numbers<std::int64_t>(file, "protocol", {&protocol, 1});
   hdf5::write_text(file, "run", label.run);
   hdf5::write_text(file, "participant", label.participant);
-  hdf5::write_numbers<double>(file, "from", {&label.from, 1});
-  hdf5::write_numbers<double>(file, "until", {&label.until, 1});
+  const RecordSelection& selection = label.selection;
+  if (!selection.times.empty()) hdf5::write_numbers<double>(file, "times", selection.times);
+  if (!selection.windows.empty()) hdf5::write_numbers<std::int64_t>(file, "windows", selection.windows);
   if (label.region) hdf5::write_numbers<double>(file, "region", *label.region);
 }
 
@@ -107,17 +93,25 @@ void transfer_rows(hid_t set, const std::string& name, std::vector<hsize_t> shap
 /// Small arrays are gathered: HDF5 takes longer over a call than over the bytes.
 void write_values(hid_t set, const std::string& name, const std::vector<hsize_t>& shape, const ArraySeries& series) {
   std::vector<std::byte> batch;
-  std::int64_t first = 0;
-  for (std::size_t i = 0; i < series.values.size(); ++i) {
-    batch.insert(batch.end(), series.values[i].begin(), series.values[i].end());
-    if (batch.size() < batch_bytes && i + 1 < series.values.size()) continue;
-    transfer_rows(set, name, shape, static_cast<hsize_t>(first), static_cast<hsize_t>(series.first[i + 1] - first),
-                  [&](hid_t part, hid_t all) {
-                    return H5Dwrite(set, type_of(series.type), part, all, H5P_DEFAULT, batch.data());
-                  });
-    first = series.first[i + 1];
+  std::size_t begun = 0;
+  const auto write = [&](std::size_t end, const std::byte* values) {
+    const auto first = static_cast<hsize_t>(series.first[begun]), last = static_cast<hsize_t>(series.first[end]);
+    transfer_rows(set, name, shape, first, last - first, [&](hid_t part, hid_t all) {
+      return H5Dwrite(set, type_of(series.type), part, all, H5P_DEFAULT, values);
+    });
+    begun = end;
     batch.clear();
+  };
+  for (std::size_t i = 0; i < series.values.size(); ++i) {
+    const std::vector<std::byte>& values = series.values[i];
+    const bool large = values.size() >= large_array;
+    if (begun < i && (large || batch.size() + values.size() > batch_bytes)) write(i, batch.data());
+    if (large)
+      write(i + 1, values.data());
+    else
+      batch.insert(batch.end(), values.begin(), values.end());
   }
+  if (begun < series.values.size()) write(series.values.size(), batch.data());
 }
 
 void write_series(hid_t parent, const std::string& name, const ArraySeries& series) {
@@ -127,9 +121,7 @@ void write_series(hid_t parent, const std::string& name, const ArraySeries& seri
   hdf5::write_text(home, "type", series.type);
   const std::int64_t scalar = series.scalar ? 1 : 0;
   hdf5::write_numbers<std::int64_t>(home, "scalar", {&scalar, 1});
-  const hid_t type = type_of(series.type);
-  const Handle set =
-      make_rows(home, "values", type, shape, byte_entropy(series.values, H5Tget_size(type)) < most_entropy);
+  const Handle set = make_rows(home, "values", type_of(series.type), shape);
   write_values(set, name, shape, series);
   write_column(home, "message", H5T_STD_I64LE, series.message);
   write_column(home, "first", H5T_STD_I64LE, series.first);
@@ -224,11 +216,9 @@ RecordSegment read_all(const std::string& path, RecordLabel& label) {
   if (hdf5::read_numbers<std::int64_t>(file, "version").at(0) != format_version ||
       hdf5::read_numbers<std::int64_t>(file, "protocol").at(0) != protocol_version)
     throw RecordError("was written by another version of the recorder or of the protocol");
-  label = {hdf5::read_text(file, "run"),
-           hdf5::read_text(file, "participant"),
-           hdf5::read_numbers<double>(file, "from").at(0),
-           hdf5::read_numbers<double>(file, "until").at(0),
-           {}};
+  label = {hdf5::read_text(file, "run"), hdf5::read_text(file, "participant"), {}, {}};
+  if (H5Aexists(file, "times") > 0) label.selection.times = hdf5::read_numbers<double>(file, "times");
+  if (H5Aexists(file, "windows") > 0) label.selection.windows = hdf5::read_numbers<std::int64_t>(file, "windows");
   if (H5Aexists(file, "region") > 0) {
     const std::vector<double> box = hdf5::read_numbers<double>(file, "region");
     std::copy_n(box.begin(), std::min<std::size_t>(box.size(), 6), label.region.emplace().begin());

@@ -62,9 +62,14 @@ void check_replayable(const std::string& folder, const std::string& participant)
     throw RecordError(folder +
                       ": holds only what lay in record.region; such a record is to look at and cannot be "
                       "replayed; run the scene again without record.region");
-  if (reader.label().from > 0)
-    throw RecordError(folder + ": begins at record.from = " + nlohmann::json(reader.label().from).dump() +
-                      " s; a replay needs the run from its start; run the scene again without record.from");
+  const RecordSelection& selection = reader.label().selection;
+  if (selection.from_the_start()) return;
+  const bool by_time = !selection.times.empty();
+  const nlohmann::json first =
+      by_time ? nlohmann::json(selection.times.front()) : nlohmann::json(selection.windows.front());
+  throw RecordError(folder + ": begins at " + (by_time ? "t = " : "window ") + first.dump() + (by_time ? " s" : "") +
+                    "; a replay needs the run from its start; run the scene again with record." +
+                    (by_time ? "times" : "windows") + " that begin at 0");
 }
 
 }  // namespace polynya::exchange

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/exchange/message.hpp"
+#include "core/exchange/record_selection.hpp"
 
 namespace polynya::exchange {
 
@@ -25,7 +26,7 @@ struct RecordedMessage {
 /// What every file of a record says about itself.
 struct RecordLabel {
   std::string run, participant;
-  double from = 0, until = 0;                   ///< s, what was to be recorded; until 0: to the end
+  RecordSelection selection;                    ///< what was to be recorded
   std::optional<std::array<double, 6>> region;  ///< m, lowest x, y, z, then highest: only this box was stored
 };
 

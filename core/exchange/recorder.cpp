@@ -24,6 +24,8 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr std::size_t batch_bytes = 2 << 20;
 constexpr double share_at_risk = 0.01;  ///< of a long run, that may lie in files not closed yet
+/// Files grow with the record: what is in memory still when the run ends keeps it waiting, and many files are a burden.
+constexpr std::size_t first_file_bytes = 16 << 20, files_of_a_record = 32;
 
 struct Noted {
   std::string participant;
@@ -86,7 +88,9 @@ double processor_seconds() {
 struct Recorder::State {
   Options options;
   std::map<std::string, Progress> progress;           // of the run's thread
+  std::int64_t window = -1;                           // likewise, of the run
   std::map<std::string, Conversation> conversations;  // of the recorder's thread
+  std::size_t taken_bytes = 0;                        // likewise
   Statistics statistics;
 
   std::mutex mutex;
@@ -104,7 +108,7 @@ struct Recorder::State {
     const auto& chosen = options.participants;
     if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), participant) == chosen.end()) return false;
     // What is said before the first window describes surfaces and grid; later messages cannot be read without it.
-    return now.time <= options.until && (now.time >= options.from || now.window < 0);
+    return now.window < 0 || options.selection.holds(window, now.time);
   }
 
   void put(Noted&& noted) {
@@ -132,10 +136,19 @@ struct Recorder::State {
   void work() {
     step_back();
     try {
-      for (bool last = false; !last;) {
-        std::deque<Noted> batch = next_batch(last);
-        for (Noted& noted : batch) take(std::move(noted));
-        if (last || Clock::now() >= due()) write_all();
+      std::unique_lock lock(mutex);
+      while (!closing) {
+        arrived.wait_until(lock, due(), [&] { return full_batch() || closing; });
+        while (!queue.empty() && !closing) {
+          Noted noted = pop();
+          lock.unlock();
+          take(std::move(noted));
+          lock.lock();
+        }
+        if (closing || Clock::now() < due()) continue;
+        lock.unlock();
+        write_all();
+        lock.lock();
       }
     } catch (...) {
       const std::scoped_lock lock(mutex);
@@ -145,25 +158,28 @@ struct Recorder::State {
     statistics.busy_seconds = processor_seconds();
   }
 
-  /// What is queued once it is worth it, or when the files are due, or at the end (last).
-  std::deque<Noted> next_batch(bool& last) {
-    std::unique_lock lock(mutex);
-    arrived.wait_until(lock, due(), [&] { return full_batch() || closing; });
-    last = closing;
-    queued_bytes = 0;
+  /// The oldest message; the mutex is held.
+  Noted pop() {
+    Noted noted = std::move(queue.front());
+    queue.pop_front();
+    queued_bytes -= size_of(noted.recorded.message);
     room.notify_one();
-    return std::exchange(queue, {});
+    return noted;
   }
 
   void take(Noted&& noted) {
     Conversation& conversation = conversations[noted.participant];
     if (conversation.label.participant.empty()) {
-      const bool all = options.until == std::numeric_limits<double>::infinity();
-      conversation.label = {options.run, noted.participant, options.from, all ? 0 : options.until, options.region};
+      conversation.label = {options.run, noted.participant, options.selection, options.region};
       if (options.region) conversation.region.emplace(*options.region);
     }
+    taken_bytes += size_of(noted.recorded.message);
     conversation.append(options.folder, std::move(noted.recorded));
-    if (conversation.segment.bytes >= options.segment_bytes) conversation.write(options.folder);
+    if (conversation.segment.bytes >= file_bytes()) conversation.write(options.folder);
+  }
+
+  std::size_t file_bytes() const {
+    return std::min(options.segment_bytes, std::max(first_file_bytes, taken_bytes / files_of_a_record));
   }
 
   void write_all() {
@@ -171,6 +187,7 @@ struct Recorder::State {
     last_files = Clock::now();
   }
 
+  /// The rest is written by the caller, for whom the run waits: the thread has stepped back.
   void finish() {
     if (!thread.joinable()) return;
     {
@@ -179,6 +196,13 @@ struct Recorder::State {
       arrived.notify_one();
     }
     thread.join();
+    if (error) return;
+    try {
+      while (!queue.empty()) take(pop());
+      write_all();
+    } catch (...) {
+      error = std::current_exception();
+    }
   }
 };
 
@@ -192,6 +216,8 @@ void Recorder::note(const std::string& participant, Sender sender, const Message
   const auto start = Clock::now();
   Progress& now = state_->progress[participant];
   now.take(message.header);
+  // The fluid counts spans; what it says belongs to the window in which it is said.
+  if (message.header.contains("window")) state_->window = now.window;
   if (!state_->wanted(participant, now)) return;
   state_->put({participant, {sender, now.window, now.time, message}});
   state_->statistics.noting_seconds += Seconds(Clock::now() - start).count();

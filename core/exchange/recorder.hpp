@@ -18,22 +18,21 @@ namespace polynya::exchange {
 class Recorder {
  public:
   struct Options {
-    std::string folder;                     ///< RUN/record
-    std::string run;                        ///< identifier of the run
-    std::vector<std::string> participants;  ///< empty: all
-    double from = 0;  ///< s, first time of interest; a record from later than 0 cannot be replayed
-    double until = std::numeric_limits<double>::infinity();  ///< s, last one
-    std::optional<std::array<double, 6>> region;             ///< m, see RecordRegion; such a record cannot be replayed
+    std::string folder;                           ///< RUN/record
+    std::string run;                              ///< identifier of the run
+    std::vector<std::string> participants;        ///< empty: all
+    RecordSelection selection;                    ///< one that does not begin at the start cannot be replayed
+    std::optional<std::array<double, 6>> region;  ///< m, see RecordRegion; such a record cannot be replayed
     double segment_seconds = 2;  ///< longest wall time between two files; a hundredth of the run if that is more
-    std::size_t segment_bytes = 32 << 20;  ///< of one file before compression
+    std::size_t segment_bytes = 32 << 20;  ///< most of one file; early ones are smaller
     std::size_t queue_bytes = 128 << 20;
   };
 
   struct Statistics {
-    std::size_t messages = 0, bytes = 0;  ///< before compression
-    double noting_seconds = 0;            ///< of the run's thread, in note()
-    double closing_seconds = 0;           ///< of the run's thread, in close()
-    double busy_seconds = 0;              ///< processor time of the recorder's thread
+    std::size_t messages = 0, bytes = 0;
+    double noting_seconds = 0;   ///< of the run's thread, in note()
+    double closing_seconds = 0;  ///< of the run's thread, in close()
+    double busy_seconds = 0;     ///< processor time of the recorder's thread
   };
 
   explicit Recorder(Options options);

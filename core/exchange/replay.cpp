@@ -1,5 +1,7 @@
 #include "core/exchange/replay.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <deque>
 #include <sstream>
 #include <utility>
@@ -67,20 +69,34 @@ class ReplayChannel : public Channel {
  private:
   /// What the participant said next; what the coupler said before that waits in the inbox.
   std::optional<RecordedMessage> next_of_participant() {
-    while (std::optional<RecordedMessage> recorded = reader_.next()) {
-      if (recorded->sender == Sender::participant) return recorded;
-      inbox_.push_back(std::move(*recorded));
+    while (look() != nullptr) {
+      RecordedMessage recorded = take();
+      if (recorded.sender == Sender::participant) return recorded;
+      inbox_.push_back(std::move(recorded));
     }
     return std::nullopt;
   }
 
+  /// The next message; none where the record ends or leaves windows out.
+  const RecordedMessage* look() {
+    const RecordedMessage* next = reader_.look();
+    gap_ = next != nullptr && next->window > window_ + 1;
+    return gap_ ? nullptr : next;
+  }
+
+  RecordedMessage take() {
+    RecordedMessage recorded = *reader_.next();
+    window_ = std::max(window_, recorded.window);
+    return recorded;
+  }
+
   RecordedMessage next_of_coupler() {
     if (inbox_.empty()) {
-      const RecordedMessage* recorded = reader_.look();
-      if (recorded == nullptr) end("where the record ends");
+      const RecordedMessage* recorded = look();
+      if (recorded == nullptr) end(gap_ ? "where the record leaves windows out" : "where the record ends");
       if (recorded->sender == Sender::participant)
         throw ReplayDifference(place(*recorded) + " is on record, but " + name_ + " waits for the coupler instead");
-      inbox_.push_back(*reader_.next());
+      inbox_.push_back(take());
     }
     RecordedMessage recorded = std::move(inbox_.front());
     inbox_.pop_front();
@@ -131,6 +147,8 @@ class ReplayChannel : public Channel {
   std::string name_;
   Envelope envelope_;
   std::deque<RecordedMessage> inbox_;
+  std::int64_t window_ = -1;  // reached
+  bool gap_ = false;
   double time_ = 0;
   bool reached_ = false, too_large_ = false;
   std::size_t compared_ = 0, differing_ = 0;

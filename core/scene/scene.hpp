@@ -116,8 +116,9 @@ struct Contact {
 /// The interface on record (core/exchange/recorder.hpp); only what differs from "all of it" is there.
 struct Record {
   std::string participants;     ///< names between commas; empty: all
-  double from = 0;              ///< s
-  std::optional<double> until;  ///< s
+  /// Intervals: [from, to, from, to, ...], s and numbers; the last one open where its end is missing; empty: all.
+  std::vector<double> times;
+  std::vector<std::int64_t> windows;
   /// m; sides of the box that vertices, cells and faces must lie in.
   std::optional<double> x_min, x_max, y_min, y_max, z_min, z_max;
 

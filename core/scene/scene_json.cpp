@@ -83,7 +83,7 @@ void members(Part& p, Visit&& visit) {
 template <class Part, class Visit>
 requires std::is_same_v<std::remove_const_t<Part>, Record>
 void members(Part& p, Visit&& visit) {
-  visit("participants", p.participants), visit("from", p.from), visit("until", p.until);
+  visit("participants", p.participants), visit("times", p.times), visit("windows", p.windows);
   visit("x_min", p.x_min), visit("x_max", p.x_max), visit("y_min", p.y_min), visit("y_max", p.y_max);
   visit("z_min", p.z_min), visit("z_max", p.z_max);
 }
@@ -170,6 +170,16 @@ struct Codec<std::optional<T>> {
   static void read(const json& source, const std::string& path, std::optional<T>& value) {
     value.reset();
     if (!source.is_null()) Codec<T>::read(source, path, value.emplace());
+  }
+};
+
+template <Plain T>
+struct Codec<std::vector<T>> {
+  static json write(const std::vector<T>& values) { return values; }
+  static void read(const json& source, const std::string& path, std::vector<T>& values) {
+    if (!source.is_array()) throw std::runtime_error(path + ": an array is needed");
+    values.clear();
+    for (const json& value : source) Codec<T>::read(value, path, values.emplace_back());
   }
 };
 

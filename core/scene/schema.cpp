@@ -155,8 +155,10 @@ std::vector<KeyRule> record_rules() {
       choice("record.interface", {"true", "false"}, "false",
              "write down every message between coupler and solvers, RUN/record (docs/debugging.md)"),
       text("record.participants", "all", "whose messages, e.g. \"ice\" or \"structure, ice\""),
-      number("record.from", dim::time, "0", "first time on record; later than 0: to look at, not to replay", 0),
-      positive("record.until", dim::time, "auto", "last time on record; auto: the end"),
+      text("record.times", "all",
+           "intervals on record, e.g. \"0 to 20 us, 0.1 ms to end\"; a replay goes as far as the first one, which must "
+           "begin at 0"),
+      text("record.windows", "all", "the same by the numbers of windows, e.g. \"0 to 100, 250, 300 to end\""),
   };
   for (const std::string side : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"})
     rules.push_back(number("record.region." + side, dim::length, "auto",

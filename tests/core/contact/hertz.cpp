@@ -91,12 +91,17 @@ continuum::HexMesh quarter_of_a_ball(double fine, double reach) {
 
 }  // namespace
 
-Sphere::Sphere(double fine, double reach, double height, double speed) {
+Sphere::Sphere(double fine, double reach, double height, double speed, bool turned) {
   const double e = hertz_youngs_modulus, nu = hertz_poisson_ratio;
   continuum::Numerics numerics;
   numerics.linear_viscosity = numerics.quadratic_viscosity = numerics.hourglass_viscosity = 0;  // an elastic sphere
   continuum::HexMesh mesh = quarter_of_a_ball(fine, reach);
-  for (std::size_t k = 2; k < mesh.nodes.size(); k += 3) mesh.nodes[k] += 1 + height;
+  for (std::size_t k = 2; k < mesh.nodes.size(); k += 3) {
+    mesh.nodes[k] += 1 + height;
+    if (!turned) continue;
+    std::swap(mesh.nodes[k - 2], mesh.nodes[k - 1]);
+    mesh.nodes[k] *= -1;
+  }
   continuum::Elastic law{1, e / (3 * (1 - 2 * nu)), e / (2 * (1 + nu))};
   solid = continuum::make_solid("sphere", mesh, law, numerics);
   // Flat faces cut a little off the sphere; its mass is what counts.
@@ -106,7 +111,7 @@ Sphere::Sphere(double fine, double reach, double height, double speed) {
   for (std::size_t n = 0; n < solid.node_count(); ++n) {
     for (std::size_t d = 0; d < 2; ++d)
       if (solid.positions[3 * n + d] == 0) solid.fixed[n] |= static_cast<std::uint8_t>(1u << d);
-    solid.velocities[3 * n + 2] = -speed;
+    solid.velocities[3 * n + 2] = turned ? speed : -speed;
   }
   const std::vector<double> alive(solid.element_count(), 1.0);
   surface = continuum::boundary_surface(solid.mesh, continuum::face_neighbours(solid.mesh), alive, planes);
@@ -193,6 +198,41 @@ Impact sphere_on_plane(double elements_per_radius, double step, const ContactLaw
   const double exchanged = 0.5 * sphere_mass / 4 * speed * speed;
   impact.lost = -work / exchanged;
   impact.account_error = std::abs(work + booked + stored) / exchanged;
+  return impact;
+}
+
+Impact sphere_on_sphere(const std::array<double, 2>& elements_per_radius, double step, const ContactLaw& law,
+                        double speed) {
+  const HertzImpact hertz(hertz_youngs_modulus / (1 - hertz_poisson_ratio * hertz_poisson_ratio), speed);
+  const double reach = 1.3 * hertz.contact_radius, height = 1e-6 * hertz.approach;
+  Sphere lower(hertz.contact_radius / elements_per_radius[0], reach, height, speed, true);
+  Sphere upper(hertz.contact_radius / elements_per_radius[1], reach, height, speed);
+  Mesh below = lower.contact_mesh(), above = upper.contact_mesh();
+  PenaltyContact contact(law);
+  contact.set_topology(below.body(), above.body());
+  const double dt = step * std::min(continuum::stable_step(lower.solid), continuum::stable_step(upper.solid));
+  const double start = upper.momentum();
+  lower.step(std::vector<double>(below.positions.size(), 0.0), 0, dt);
+  upper.step(std::vector<double>(above.positions.size(), 0.0), 0, dt);
+  Impact impact;
+  double time = 0, first = -1;
+  for (bool over = false; !over && time < 3 * hertz.duration; time += dt) {
+    continuum::advance_positions(lower.solid, dt);
+    continuum::advance_positions(upper.solid, dt);
+    lower.refresh(below);
+    upper.refresh(above);
+    const ContactForces& forces = contact.evaluate(below.body(), above.body(), dt);
+    double total = 0;
+    for (std::size_t i = 0; i < above.count(); ++i) total += 4 * forces.secondary[3 * i + 2];
+    impact.peak_force = std::max(impact.peak_force, total);
+    if (total > 0 && first < 0) first = time;
+    if (total > 0) impact.duration = time + dt - first;
+    over = total == 0 && first >= 0 && time > first + 0.8 * hertz.duration;
+    lower.step(forces.primary, dt, dt);
+    upper.step(forces.secondary, dt, dt);
+  }
+  impact.restitution = (lower.momentum() - upper.momentum()) / (2 * start);
+  impact.momentum_gained = (lower.momentum() + upper.momentum()) / start;
   return impact;
 }
 

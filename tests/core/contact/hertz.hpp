@@ -15,8 +15,9 @@ struct Sphere {
   continuum::BoundarySurface surface;
   std::vector<double> nodal_force;
 
-  /// `fine`: size of the elements (of radius 1) out to `reach` from the lowest point.
-  Sphere(double fine, double reach, double height, double speed);
+  /// `fine`: size of the elements (of radius 1) out to `reach` from the lowest point. `turned`: by half a turn about
+  /// x = y, z = 0, so that the fine point is the highest one, at -height, and the sphere moves upward.
+  Sphere(double fine, double reach, double height, double speed, bool turned = false);
 
   Mesh contact_mesh() const;       ///< the surface as a body now
   void refresh(Mesh& mesh) const;  ///< positions and velocities
@@ -34,13 +35,19 @@ struct HertzImpact {
 /// An impact as computed.
 struct Impact {
   double restitution = 0, duration = 0, peak_force = 0;
-  double account_error = 0;  ///< of the contact's energies against the work of its forces, over the energy exchanged
-  double lost = 0;           ///< work of the contact's forces on the bodies, sign reversed, over the energy exchanged
+  double account_error = 0;    ///< of the contact's energies against the work of its forces, over the energy exchanged
+  double lost = 0;             ///< work of the contact's forces on the bodies, sign reversed, over the energy exchanged
+  double momentum_gained = 0;  ///< by both bodies together, over that of one
 };
 
 /// elements_per_radius: of the elements in the contact circle's radius at the peak. step: fraction of the stable one.
 Impact sphere_on_plane(double elements_per_radius, double step, const ContactLaw& law, double speed,
                        double tangential_speed = 0);
+
+/// Two spheres of different meshes that meet head on, each at `speed`; elements of either in the contact circle's
+/// radius.
+Impact sphere_on_sphere(const std::array<double, 2>& elements_per_radius, double step, const ContactLaw& law,
+                        double speed);
 
 inline constexpr double hertz_youngs_modulus = 1, hertz_poisson_ratio = 0.3;
 

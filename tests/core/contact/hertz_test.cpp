@@ -50,3 +50,28 @@ TEST(HertzLong, DurationAndPeakForceConvergeToHertz) {
   }
   EXPECT_LT(last, 0.015);
 }
+
+namespace {
+
+/// Two bodies that both give way, with meshes that do not match, each looked at from both sides.
+void expect_hertz_of_two(double elements, double stiffness_factor) {
+  const double speed = 3e-4;
+  ContactLaw law = stiff;
+  law.stiffness_factor = stiffness_factor;
+  law.mirror = {true, true};
+  law.two_way = law.edges = true;
+  const Impact impact = sphere_on_sphere({elements, 1.25 * elements}, 0.6, law, speed);
+  expect_hertz(impact, speed, 0.03);
+  EXPECT_LT(std::abs(impact.momentum_gained), 1e-12);
+}
+
+}  // namespace
+
+TEST(HertzLong, TwoMeshedSpheresThatMeetSlowlyPartAsHertzSays) {
+  expect_hertz_of_two(2, 0.3);
+}
+
+// The penalty gives way by a part of an element, so the default stiffness needs smaller ones.
+TEST(HertzLong, TwoMeshedSpheresPartSoWithTheDefaultStiffnessToo) {
+  expect_hertz_of_two(3, 0.1);
+}

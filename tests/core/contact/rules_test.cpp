@@ -264,6 +264,69 @@ TEST(Rules, NewParticlesTakeOverTheForceOfThePointsTheyReplace) {
   EXPECT_NEAR(after.stored_energy + after.released_energy, before.stored_energy, 1e-9 * before.stored_energy);
 }
 
+TEST(Rules, NewParticlesAroundANodeShareItsForce) {
+  Mesh floor = floor_of();
+  Mesh node = point_at({0, 0, 0.001}, {0, 0, -5});
+  PenaltyContact contact(law);
+  contact.set_topology(floor.body(), node.body());
+  const double dt = 1e-3;
+  contact.evaluate(floor.body(), node.body(), dt);
+  node.drift(dt);
+  const double force = contact.evaluate(floor.body(), node.body(), dt).secondary[2];
+  ASSERT_GT(force, 0);
+  // Four around it, and one in the next element.
+  Mesh particles;
+  for (const Vector3& x :
+       {Vector3{0.05, 0.05, 0.04}, {-0.05, 0.05, 0.04}, {-0.05, -0.05, 0.04}, {0.05, -0.05, 0.04}, {0.15, 0.05, 0.04}})
+    particles.add_point(x, {}, 2, 0.05);
+  particles.ids = {70, 71, 72, 73, 74};
+  contact.set_topology(floor.body(), particles.body());
+  const ContactForces& after = contact.evaluate(floor.body(), particles.body(), dt);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(after.secondary[3 * i + 2], force / 4, 1e-9 * force);
+  EXPECT_EQ(after.secondary[3 * 4 + 2], 0);
+}
+
+TEST(Rules, PartOfTheSpringLeavesWithTheMassThatBecomesAParticle) {
+  Mesh floor = floor_of();
+  Mesh ice = point_at({0, 0, 0.001}, {0, 0, -5});
+  PenaltyContact contact(law);
+  contact.set_topology(floor.body(), ice.body());
+  const double dt = 1e-3;
+  contact.evaluate(floor.body(), ice.body(), dt);
+  ice.drift(dt);
+  const ContactForces before = contact.evaluate(floor.body(), ice.body(), dt);
+  const double force = before.secondary[2];
+  ice.masses[0] *= 0.75;
+  ice.add_point({0.05, 0.05, 0.04}, {}, 2, 0.05);
+  contact.set_topology(floor.body(), ice.body());
+  const ContactForces& after = contact.evaluate(floor.body(), ice.body(), dt);
+  EXPECT_NEAR(after.secondary[2], 0.75 * force, 1e-9 * force);
+  EXPECT_NEAR(after.secondary[5], 0.25 * force, 1e-9 * force);
+  EXPECT_NEAR(after.stored_energy + after.released_energy, before.stored_energy, 1e-9 * before.stored_energy);
+}
+
+TEST(Rules, ParticlesTakeOverTheForceOfFacesThatVanish) {
+  // A tip of the primary body in a face of the secondary; particles come in place of the face.
+  Mesh tip = point_at({0, 0, 0.001}, {0, 0, -5}), face = floor_of();
+  face.masses.assign(face.count(), 1.0);
+  ContactLaw both_ways = law;
+  both_ways.two_way = true;
+  PenaltyContact contact(both_ways);
+  contact.set_topology(tip.body(), face.body());
+  const double dt = 1e-3;
+  contact.evaluate(tip.body(), face.body(), dt);
+  tip.drift(dt);
+  const double force = contact.evaluate(tip.body(), face.body(), dt).primary[2];
+  ASSERT_GT(force, 0);
+  // The primary body needs a face that the particle can touch.
+  Mesh hull = box_of({-0.1, -0.1, tip.positions[2]}, {0.1, 0.1, 0.2}, 1, 1e3), particle;
+  hull.ids = {100, 101, 102, 103, 104, 105, 106, 107};
+  particle.add_point({0, 0, tip.positions[2] - 0.04}, {}, 2, 0.05);
+  particle.ids = {70};
+  contact.set_topology(hull.body(), particle.body());
+  EXPECT_NEAR(contact.evaluate(hull.body(), particle.body(), dt).secondary[2], -force, 1e-9 * force);
+}
+
 TEST(Rules, TouchesOnlyTrianglesThatAreNotItsOwn) {
   // A folded strip: its end comes down on its beginning. Points do not meet the faces around themselves.
   Mesh strip;

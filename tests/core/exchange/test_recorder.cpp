@@ -90,7 +90,7 @@ TEST(Recorder, MessagesComeBackBitForBitInOrder) {
   }
 }
 
-TEST(Recorder, LargeArraysComeBackFromManyFilesCompressedOrNot) {
+TEST(Recorder, LargeArraysComeBackFromManyFiles) {
   const SocketFolder folder;
   Recorder::Options options = options_in(folder);
   options.segment_bytes = 3 << 20;
@@ -99,7 +99,7 @@ TEST(Recorder, LargeArraysComeBackFromManyFilesCompressedOrNot) {
     written.push_back(surface(window, 1e-6 * window, 60000));  // 1.4 MB of noise
     std::vector<std::int64_t> ids(200000);
     for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int64_t>(i) + window;
-    written.back().add<std::int64_t>("ids", {200000}, ids);  // 1.6 MB that compress to a tenth
+    written.back().add<std::int64_t>("ids", {200000}, ids);
   }
   Recorder recorder(options);
   for (const Message& message : written) recorder.note("ice", Sender::participant, message);
@@ -107,10 +107,9 @@ TEST(Recorder, LargeArraysComeBackFromManyFilesCompressedOrNot) {
   const std::vector<RecordedMessage> read = read_all(options.folder, "ice");
   ASSERT_EQ(read.size(), written.size());
   for (std::size_t i = 0; i < read.size(); ++i) expect_equal(read[i].message, written[i]);
-  std::size_t bytes = 0, files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(options.folder)) bytes += entry.file_size(), ++files;
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(options.folder)) ++files;
   EXPECT_EQ(files, 3u);
-  EXPECT_LT(bytes, 6u * 1'800'000u);
 }
 
 TEST(Recorder, LoadsCarryTheTimeOfTheSurfaceTheyAnswer) {
@@ -132,8 +131,7 @@ TEST(Recorder, KeepsTheChosenParticipantsAndTimes) {
   const SocketFolder folder;
   Recorder::Options options = options_in(folder);
   options.participants = {"ice"};
-  options.from = 3e-6;
-  options.until = 5e-6;
+  options.selection.times = {3e-6, 5e-6, 7e-6, 7.5e-6};
   Recorder recorder(options);
   for (const char* name : {"ice", "structure"}) {
     recorder.note(name, Sender::participant, Message("ready"));
@@ -146,11 +144,41 @@ TEST(Recorder, KeepsTheChosenParticipantsAndTimes) {
   EXPECT_EQ(recorded_participants(options.folder), std::vector<std::string>{"ice"});
   std::vector<std::int64_t> windows;
   for (const RecordedMessage& recorded : read_all(options.folder, "ice")) windows.push_back(recorded.window);
-  EXPECT_EQ(windows, (std::vector<std::int64_t>{-1, 3, 3, 4, 4, 5, 5}));
-  EXPECT_NE(message_of<RecordError>([&] { check_replayable(options.folder, "ice"); }).find("record.from"),
+  EXPECT_EQ(windows, (std::vector<std::int64_t>{-1, 3, 3, 4, 4, 5, 5, 7, 7}));
+  EXPECT_NE(message_of<RecordError>([&] {
+              check_replayable(options.folder, "ice");
+            }).find("begins at t = 3e-06 s; a replay needs"),
             std::string::npos);
   EXPECT_NE(message_of<RecordError>([&] { check_replayable(options.folder, "structure"); }).find("recorded are ice"),
             std::string::npos);
+}
+
+TEST(Recorder, KeepsTheChosenWindowsAndTheSpansThatEndInThem) {
+  const SocketFolder folder;
+  Recorder::Options options = options_in(folder);
+  options.selection.windows = {2, 3, 7, 7, 9};
+  Recorder recorder(options);
+  recorder.note("ice", Sender::participant, Message("ready"));
+  recorder.note("fluid", Sender::participant, Message("ready"));
+  for (int window = 0; window < 12; ++window) {
+    recorder.note("ice", Sender::participant, surface(window, window * 1e-6));
+    if (window % 2 == 1) {  // a span of two windows
+      Message span("span");
+      span.header["span"] = window / 2;
+      span.header["time1"] = window * 1e-6;
+      recorder.note("fluid", Sender::coupler, span);
+    }
+    recorder.note("ice", Sender::coupler, loads(window));
+  }
+  recorder.close();
+  const auto windows = [&](const char* name) {
+    std::vector<std::int64_t> all;
+    for (const RecordedMessage& recorded : read_all(options.folder, name)) all.push_back(recorded.window);
+    return all;
+  };
+  EXPECT_EQ(windows("ice"), (std::vector<std::int64_t>{-1, 2, 2, 3, 3, 7, 7, 9, 9, 10, 10, 11, 11}));
+  EXPECT_EQ(windows("fluid"), (std::vector<std::int64_t>{-1, 1, 3, 4, 5}));
+  EXPECT_EQ(RecordReader(options.folder, "ice").label().selection.windows, options.selection.windows);
 }
 
 TEST(Recorder, WhatAKilledProcessHadWrittenIsWholeUpToTheLastFile) {

@@ -66,11 +66,12 @@ struct RecordedRun {
   SocketFolder folder;
   Mass mass;
 
-  explicit RecordedRun(int last = window_count) {
+  explicit RecordedRun(int last = window_count, RecordSelection selection = {}) {
     std::thread solver;
     {
       Recorder::Options options;
       options.folder = record();
+      options.selection = std::move(selection);
       Recorder recorder(options);
       Hub hub(folder.endpoint(), "r", {"mass"});
       hub.record(recorder);
@@ -112,6 +113,24 @@ TEST(Replay, FollowsTheCoupledRunBitForBitWithoutACoupler) {
   EXPECT_EQ(again.position, run.mass.position);
   EXPECT_EQ(again.velocity, run.mass.velocity);
   EXPECT_EQ(again.frames, run.mass.frames);
+}
+
+TEST(Replay, GoesAsFarAsTheFirstIntervalOnRecord) {
+  const RecordedRun run(window_count, {.times = {}, .windows = {0, 7, 12}});
+  Mass again;
+  const std::string verdict = run.replay<ReplayEnded>(again);
+  EXPECT_TRUE(holds(verdict, "t = 8e-06 s, where the record leaves windows out: 9 messages, all equal")) << verdict;
+  EXPECT_EQ(again.windows, 8);
+}
+
+TEST(Replay, OfAnIntervalThatBeginsLaterIsRefusedInOneSentence) {
+  const RecordedRun run(window_count, {.times = {}, .windows = {5, 7}});
+  Mass again;
+  const std::string sentence = run.replay<RecordError>(again);
+  EXPECT_TRUE(holds(sentence,
+                    "begins at window 5; a replay needs the run from its start; run the scene again with "
+                    "record.windows that begin at 0"))
+      << sentence;
 }
 
 TEST(Replay, NamesTheFirstDifferenceAndStopsThere) {
