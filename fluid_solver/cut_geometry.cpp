@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/compute/large_pages.hpp"
+
 namespace polynya::fluid {
 
 double empty_open_fraction(const Grid& grid, const std::array<Boundary, 6>& boundary, int axis, std::ptrdiff_t face) {
@@ -20,8 +22,10 @@ double empty_open_fraction(const Grid& grid, const std::array<Boundary, 6>& boun
 }
 
 CutGeometry::CutGeometry(const Grid& grid, const std::array<Boundary, 6>& boundary)
-    : volume(grid.size, 0.0), node_fraction(grid.size, 0.0), listed_(grid.size, 0) {
-  for (auto& fraction : open) fraction.assign(grid.size, 0.0);
+    : volume(compute::zeros_in_large_pages(grid.size)),
+      node_fraction(compute::zeros_in_large_pages(grid.size)),
+      listed_(grid.size, 0) {
+  for (auto& fraction : open) fraction = compute::zeros_in_large_pages(grid.size);
   for_rows(grid, 1, [&](int j, int k) {
     for (int i = 1; i <= grid.nx + 1; ++i) {
       const std::ptrdiff_t c = grid.at(i, j, k);

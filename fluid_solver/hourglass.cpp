@@ -12,6 +12,7 @@ namespace {
 /// along x, d less its mean over the four edges, and of s what alternates in y and z.
 void edge_forces(const double* __restrict u, const double* __restrict coefficient, int count, std::ptrdiff_t sy,
                  std::ptrdiff_t sz, std::ptrdiff_t width, double* __restrict lower, double* __restrict upper) {
+#pragma omp simd
   for (int i = 1; i <= count; ++i) {
     const double s0 = u[i] + u[i + 1], d0 = u[i] - u[i + 1];
     const double s1 = u[i + sy] + u[i + sy + 1], d1 = u[i + sy] - u[i + sy + 1];

@@ -41,6 +41,7 @@ struct EdgeRow {
     const std::ptrdiff_t before = at_lower_end ? 0 : -s, beyond = at_upper_end ? s : 2 * s;
     const double *u = fluid.next_velocity[0].data() + row, *v = fluid.next_velocity[1].data() + row,
                  *w = fluid.next_velocity[2].data() + row;
+#pragma omp simd
     for (std::ptrdiff_t n = first; n <= last; ++n) {
       const double flux = dual_flux(face_mass, n, s, t1, t2);
       const bool forward = flux >= 0;
@@ -197,6 +198,7 @@ class March {
     const double *m0 = fluid_.material[0].mass.data() + row, *m1 = fluid_.material[1].mass.data() + row;
     const double* old_mass = fluid_.node_mass.data() + row;
     double* __restrict new_mass = fluid_.viscosity.data() + row;  // free until the next step
+#pragma omp simd
     for (std::ptrdiff_t n = 1; n <= grid_.nx + 1; ++n) {
       const auto pair = [&](std::ptrdiff_t c) { return (m0[c] + m1[c]) + (m0[c - 1] + m1[c - 1]); };
       new_mass[n] = 0.125 * ((pair(n) + pair(n - sy)) + (pair(n - sz) + pair(n - sy - sz)));
@@ -209,6 +211,7 @@ class March {
     double* __restrict un = fluid_.velocity[0].data() + row;
     double* __restrict vn = fluid_.velocity[1].data() + row;
     double* __restrict wn = fluid_.velocity[2].data() + row;
+#pragma omp simd
     for (int n = 1; n <= grid_.nx + 1; ++n) {
       const bool filled = new_mass[n] > 0;
       const double inverse = 1.0 / (filled ? new_mass[n] : 1.0);
@@ -221,6 +224,7 @@ class March {
     const auto square = [row](const std::array<std::vector<double>, 3>& u, std::ptrdiff_t n) {
       return u[0][row + n] * u[0][row + n] + u[1][row + n] * u[1][row + n] + u[2][row + n] * u[2][row + n];
     };
+#pragma omp simd
     for (int n = 1; n <= grid_.nx + 1; ++n) {
       const double lost =
           0.5 * (old_mass[n] * square(fluid_.next_velocity, n) - new_mass[n] * square(fluid_.velocity, n)) +
@@ -250,6 +254,7 @@ double heat_gas(Fluid& fluid, int gases) {
       const std::ptrdiff_t row = grid.at(0, j, k);
       const double *loss = fluid.force[0].data() + row, *mass = fluid.material[m].mass.data() + row;
       double* __restrict energy = fluid.material[m].energy.data() + row;
+#pragma omp simd reduction(+ : given)
       for (std::ptrdiff_t i = 1; i <= grid.nx; ++i) {
         const auto four = [loss, sy, sz](std::ptrdiff_t n) {
           return (loss[n] + loss[n + sy]) + (loss[n + sz] + loss[n + sy + sz]);

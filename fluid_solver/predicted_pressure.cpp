@@ -72,6 +72,7 @@ void predict_pressure(Fluid& fluid, double dt) {
     const double y_before = grid.dy[j] / grid.dy[j - 1], y_after = grid.dy[j] / grid.dy[j + 1];
     const double z_before = grid.dz[k] / grid.dz[k - 1], z_after = grid.dz[k] / grid.dz[k + 1];
     const bool limits = fluid.setup.shock_viscosity == ShockViscosity::limited;
+#pragma omp simd
     for (int i = 1; i <= grid.nx; ++i) {
       const double ex = qx[i + 1] - qx[i], ey = qy[i + sy] - qy[i], ez = qz[i + sz] - qz[i];
       const double r = (ex + ey + ez) + change[i] * over_dt;

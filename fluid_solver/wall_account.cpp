@@ -23,16 +23,18 @@ void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls, con
   }
   if (fluid.setup.gravity == 0) return;
   // Weight as the faces carry it: gravity times half the density of each side over the open area.
-  account.gravity_impulse += dt * fluid.setup.gravity * row_sum(grid, 1, [&](int j, int k) {
-    double sum = 0;
-    if (j > grid.ny) return sum;
-    for (int i = 1; i <= grid.nx; ++i) {
-      const std::ptrdiff_t f = grid.at(i, j, k);
-      const double open = 0.5 * (fluid.before.open[2][f] + fluid.after.open[2][f]) * grid.dx[i] * grid.dy[j];
-      sum += open * 0.5 * (grid.dz[k - 1] * fluid.density[f - grid.sz] + grid.dz[k] * fluid.density[f]);
-    }
-    return sum;
-  });
+  account.gravity_impulse +=
+      dt * fluid.setup.gravity * row_sum(grid, 1, [&](int j, int k) {
+        double sum = 0;
+        if (j > grid.ny) return sum;
+#pragma omp simd reduction(+ : sum)
+        for (int i = 1; i <= grid.nx; ++i) {
+          const std::ptrdiff_t f = grid.at(i, j, k);
+          const double open = 0.5 * (fluid.before.open[2][f] + fluid.after.open[2][f]) * grid.dx[i] * grid.dy[j];
+          sum += open * 0.5 * (grid.dz[k - 1] * fluid.density[f - grid.sz] + grid.dz[k] * fluid.density[f]);
+        }
+        return sum;
+      });
 }
 
 }  // namespace polynya::fluid
