@@ -13,11 +13,11 @@ Fluid::Fluid(Grid grid_in, Setup setup_in)
   const std::size_t size = grid.size;
   for (auto& m : material)
     for (auto* array : {&m.mass, &m.energy, &m.volume}) *array = compute::zeros_in_large_pages(size);
-  for (auto* arrays : {&velocity, &face_coefficient, &face_rate, &face_mass, &force, &next_velocity}) {
+  for (auto* arrays : {&velocity, &face_coefficient, &face_rate, &face_mass, &next_velocity}) {
     for (auto& array : *arrays) array = compute::zeros_in_large_pages(size);
   }
   for (auto* array : {&pressure, &predicted_pressure, &density, &bulk_modulus, &sound_speed, &total_mass,
-                      &node_fraction, &node_mass, &volume_change, &viscosity, &rate, &sweep_volume}) {
+                      &node_fraction, &node_mass, &kinetic_loss, &volume_change, &viscosity, &rate, &sweep_volume}) {
     *array = compute::zeros_in_large_pages(size);
   }
   for (auto& d : donor)

@@ -1,96 +1,82 @@
-// The Lagrange phase: volume rates, predicted pressure, acceleration of nodes by the adjoint of the face average, and
-// the work that goes with it, so that kinetic plus internal energy changes only by the works that are booked.
+// The flow through faces of the Lagrange phase, and the work of the pressure that accelerated the nodes by the adjoint of
+// the same average: kinetic plus internal energy changes only by the works that are booked.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fluid_solver/phases.hpp"
 #include "fluid_solver/pressure_equilibrium.hpp"
+#include "fluid_solver/row_geometry.hpp"
 
 namespace polynya::fluid {
 namespace {
 
-template <bool mean>
-void rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity,
-           std::array<std::vector<double>, 3>& rate) {
-  const Grid& grid = fluid.grid;
+/// The sum of two fields, read like one.
+struct Sum {
+  const double *first, *second;
+  double operator[](std::ptrdiff_t i) const { return first[i] + second[i]; }
+};
+
+/// Volume per time through the lower faces of rows (j, k), entries `first` to `last`: half the flow if velocities are
+/// sums of two.
+template <class Row, class Velocity>
+void row_rates(const Row& row, const Grid& grid, const std::array<Velocity, 3>& velocity, double part, int first,
+               int last, const std::array<double*, 3>& rate) {
   const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
-  for_rows(grid, 1, [&](int j, int k) {
-    const std::ptrdiff_t row = grid.at(0, j, k);
-    const double* b = fluid.node_fraction.data() + row;
-    const double *u = velocity[0].data() + row, *v = velocity[1].data() + row, *w = velocity[2].data() + row;
-    const double *ax = fluid.face_coefficient[0].data() + row, *ay = fluid.face_coefficient[1].data() + row,
-                 *az = fluid.face_coefficient[2].data() + row;
-    double* __restrict qx = rate[0].data() + row;
-    double* __restrict qy = rate[1].data() + row;
-    double* __restrict qz = rate[2].data() + row;
+  const auto [u, v, w] = velocity;
+  const auto [qx, qy, qz] = rate;
 #pragma omp simd
-    for (int i = 1; i <= grid.nx + 1; ++i) {
-      const double b00 = b[i], b10 = b[i + 1], by0 = b[i + sy], by1 = b[i + 1 + sy], bz0 = b[i + sz],
-                   bz1 = b[i + 1 + sz];
-      const double rx = ax[i] * ((b00 * u[i] + by0 * u[i + sy]) + (bz0 * u[i + sz] + b[i + sy + sz] * u[i + sy + sz]));
-      const double ry = ay[i] * ((b00 * v[i] + b10 * v[i + 1]) + (bz0 * v[i + sz] + bz1 * v[i + 1 + sz]));
-      const double rz = az[i] * ((b00 * w[i] + b10 * w[i + 1]) + (by0 * w[i + sy] + by1 * w[i + 1 + sy]));
-      qx[i] = mean ? 0.5 * (qx[i] + rx) : rx;
-      qy[i] = mean ? 0.5 * (qy[i] + ry) : ry;
-      qz[i] = mean ? 0.5 * (qz[i] + rz) : rz;
-    }
-  });
+  for (int i = first; i <= last; ++i) {
+    qx[i] = part * flow_x(row, u, i, sy, sz);
+    qy[i] = part * flow_y(row, v, i, sz);
+    qz[i] = part * flow_z(row, w, i, sy);
+  }
+}
+
+using Field3 = std::array<std::vector<double>, 3>;
+
+std::array<const double*, 3> row_of(const Field3& field, std::ptrdiff_t row) {
+  return {field[0].data() + row, field[1].data() + row, field[2].data() + row};
+}
+std::array<double*, 3> row_of(Field3& field, std::ptrdiff_t row) {
+  return {field[0].data() + row, field[1].data() + row, field[2].data() + row};
 }
 
 }  // namespace
 
-void face_rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity,
-                std::array<std::vector<double>, 3>& rate) {
-  rates<false>(fluid, velocity, rate);
+void face_rates(const Fluid& fluid, const Field3& velocity, Field3& rate) {
+  const Grid& grid = fluid.grid;
+  for_rows(grid, 1, [&](int j, int k) {
+    const std::ptrdiff_t row = grid.at(0, j, k);
+    with_row(fluid, j, k, [&](auto at) {
+      row_rates(at, grid, row_of(velocity, row), 1.0, 1, grid.nx + 1, row_of(rate, row));
+    });
+  });
+}
+
+void boundary_face_rates(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  for_rows(grid, 1, [&](int j, int k) {
+    const std::ptrdiff_t row = grid.at(0, j, k);
+    const bool outermost = j == 1 || k == 1 || j > grid.ny || k > grid.nz;
+    with_row(fluid, j, k, [&](auto at) {
+      const auto velocity = row_of(std::as_const(fluid.velocity), row);
+      const auto rate = row_of(fluid.face_rate, row);
+      row_rates(at, grid, velocity, 1.0, 1, outermost ? grid.nx + 1 : 1, rate);
+      row_rates(at, grid, velocity, 1.0, grid.nx + 1, grid.nx + 1, rate);
+    });
+  });
 }
 
 void mean_face_rates(Fluid& fluid) {
-  rates<true>(fluid, fluid.next_velocity, fluid.face_rate);
-}
-
-double accelerate_nodes(Fluid& fluid, double dt) {
   const Grid& grid = fluid.grid;
-  const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
-  const double g = fluid.setup.gravity;
-  const auto [dissipated, kinetic] = row_sums<2>(grid, 1, [&](int j, int k) {
+  for_rows(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
-    const double *m = fluid.total_mass.data() + row, *p = fluid.predicted_pressure.data() + row,
-                 *rho = fluid.density.data() + row;
-    const double *ax = fluid.face_coefficient[0].data() + row, *ay = fluid.face_coefficient[1].data() + row,
-                 *az = fluid.face_coefficient[2].data() + row;
-    const double* b = fluid.node_fraction.data() + row;
-    const double *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row,
-                 *w = fluid.velocity[2].data() + row;
-    const double *hx = fluid.force[0].data() + row, *hy = fluid.force[1].data() + row,
-                 *hz = fluid.force[2].data() + row;
-    double* __restrict un = fluid.next_velocity[0].data() + row;
-    double* __restrict vn = fluid.next_velocity[1].data() + row;
-    double* __restrict wn = fluid.next_velocity[2].data() + row;
-    double* __restrict mass = fluid.node_mass.data() + row;
-    const double low = 0.5 * g * grid.dz[k - 1], high = 0.5 * g * grid.dz[k];
-    const auto lift = [&](std::ptrdiff_t f) { return p[f - sz] - p[f] - (low * rho[f - sz] + high * rho[f]); };
-    double loss = 0, moving = 0;
-#pragma omp simd reduction(+ : moving, loss)
-    for (std::ptrdiff_t n = 1; n <= grid.nx + 1; ++n) {
-      const std::ptrdiff_t y = n - sy, z = n - sz, yz = n - sy - sz;
-      const double node = 0.125 * (((m[n] + m[n - 1]) + (m[y] + m[y - 1])) + ((m[z] + m[z - 1]) + (m[yz] + m[yz - 1])));
-      const double fx = ax[n] * (p[n - 1] - p[n]) + ax[y] * (p[y - 1] - p[y]) + ax[z] * (p[z - 1] - p[z]) +
-                        ax[yz] * (p[yz - 1] - p[yz]);
-      const double fy = ay[n] * (p[n - sy] - p[n]) + ay[n - 1] * (p[n - 1 - sy] - p[n - 1]) +
-                        ay[z] * (p[z - sy] - p[z]) + ay[z - 1] * (p[z - 1 - sy] - p[z - 1]);
-      const double fz = az[n] * lift(n) + az[n - 1] * lift(n - 1) + az[y] * lift(y) + az[y - 1] * lift(y - 1);
-      const double per_mass = node > 0 ? dt / (node > 0 ? node : 1.0) : 0.0;
-      un[n] = u[n] + per_mass * (b[n] * fx + hx[n]);
-      vn[n] = v[n] + per_mass * (b[n] * fy + hy[n]);
-      wn[n] = w[n] + per_mass * (b[n] * fz + hz[n]);
-      mass[n] = node;
-      moving += 0.5 * node * (un[n] * un[n] + vn[n] * vn[n] + wn[n] * wn[n]);
-      loss += -0.5 * (node > 0 ? dt : 0.0) * (hx[n] * (u[n] + un[n]) + hy[n] * (v[n] + vn[n]) + hz[n] * (w[n] + wn[n]));
-    }
-    return std::array<double, 2>{loss, moving};
+    const auto before = row_of(std::as_const(fluid.velocity), row), after = row_of(std::as_const(fluid.next_velocity), row);
+    const std::array<Sum, 3> velocity{Sum{before[0], after[0]}, Sum{before[1], after[1]}, Sum{before[2], after[2]}};
+    with_row(fluid, j, k,
+             [&](auto at) { row_rates(at, grid, velocity, 0.5, 1, grid.nx + 1, row_of(fluid.face_rate, row)); });
   });
-  fluid.account.hourglass += dissipated;
-  return kinetic;
 }
 
 void work_and_volumes(Fluid& fluid, double dt) {

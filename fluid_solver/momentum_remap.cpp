@@ -220,7 +220,7 @@ class March {
       wn[n] = filled ? inverse * (old_mass[n] * w[n] + gained(2, n)) : w[n];
     }
     if (!kinetic) return;
-    double* __restrict loss = fluid_.force[0].data() + row;  // free until the next step
+    double* __restrict loss = fluid_.kinetic_loss.data() + row;
     const auto square = [row](const std::array<std::vector<double>, 3>& u, std::ptrdiff_t n) {
       return u[0][row + n] * u[0][row + n] + u[1][row + n] * u[1][row + n] + u[2][row + n] * u[2][row + n];
     };
@@ -252,7 +252,7 @@ double heat_gas(Fluid& fluid, int gases) {
     for (int m = 0; m < 2; ++m) {
       if (!(heated >> m & 1)) continue;
       const std::ptrdiff_t row = grid.at(0, j, k);
-      const double *loss = fluid.force[0].data() + row, *mass = fluid.material[m].mass.data() + row;
+      const double *loss = fluid.kinetic_loss.data() + row, *mass = fluid.material[m].mass.data() + row;
       double* __restrict energy = fluid.material[m].energy.data() + row;
 #pragma omp simd reduction(+ : given)
       for (std::ptrdiff_t i = 1; i <= grid.nx; ++i) {
