@@ -74,13 +74,14 @@ Energies accelerate_row(Fluid& fluid, double dt, int j, int k, const std::array<
 #pragma omp simd reduction(+ : moving, loss)
   for (std::ptrdiff_t n = 1; n <= grid.nx + 1; ++n) {
     const std::ptrdiff_t y = n - sy, z = n - sz, yz = n - sy - sz;
-    const double node = 0.125 * (((m[n] + m[n - 1]) + (my[n] + my[n - 1])) + ((mz[n] + mz[n - 1]) + (myz[n] + myz[n - 1])));
+    const double node =
+        0.125 * (((m[n] + m[n - 1]) + (my[n] + my[n - 1])) + ((mz[n] + mz[n - 1]) + (myz[n] + myz[n - 1])));
     const double fx = at.own.x(n) * (p[n - 1] - p[n]) + at.y.x(n) * (p[y - 1] - p[y]) + at.z.x(n) * (p[z - 1] - p[z]) +
                       at.yz.x(n) * (p[yz - 1] - p[yz]);
     const double fy = at.own.y(n) * (p[n - sy] - p[n]) + at.own.y(n - 1) * (p[n - 1 - sy] - p[n - 1]) +
                       at.z.y(n) * (p[z - sy] - p[z]) + at.z.y(n - 1) * (p[z - 1 - sy] - p[z - 1]);
-    const double fz = at.own.z(n) * lift(n) + at.own.z(n - 1) * lift(n - 1) + at.y.z(n) * lift(y) +
-                      at.y.z(n - 1) * lift(y - 1);
+    const double fz =
+        at.own.z(n) * lift(n) + at.own.z(n - 1) * lift(n - 1) + at.y.z(n) * lift(y) + at.y.z(n - 1) * lift(y - 1);
     const double per_mass = node > 0 ? dt / (node > 0 ? node : 1.0) : 0.0, b = at.own.node(n);
     const double x_new = u[n] + per_mass * (b * fx + hx[n]), y_new = v[n] + per_mass * (b * fy + hy[n]),
                  z_new = w[n] + per_mass * (b * fz + hz[n]);
@@ -122,7 +123,9 @@ class March {
   }
   double* at(std::size_t place) { return storage_.data() + width_ * place; }
   double* force(int d) { return at(static_cast<std::size_t>(d)); }
-  double* above(int d, int j) { return at(51 + static_cast<std::size_t>(d) * rows_ + static_cast<std::size_t>(j - block_.first_j)); }
+  double* above(int d, int j) {
+    return at(51 + static_cast<std::size_t>(d) * rows_ + static_cast<std::size_t>(j - block_.first_j));
+  }
   EdgeForces edges(int d, int j) {
     EdgeForces of;
     const std::size_t first = 3 + static_cast<std::size_t>(16 * d + 8 * (j % 2));

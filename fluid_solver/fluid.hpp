@@ -100,7 +100,9 @@ struct Fluid {
   std::array<std::vector<double>, 3> face_rate;         ///< volume per time through lower faces, m^3/s
   std::array<std::vector<double>, 3> face_mass;         ///< mass through lower faces in this step, kg
   std::array<std::vector<double>, 3> next_velocity;
-  std::vector<double> open_quarter, quarter_width;      ///< by i: a quarter where the x-face is open; of dx, 0 in ghosts
+  // Rows that no solid touches, by i.
+  std::vector<double> open_quarter, quarter_width;  ///< a quarter where the x-face is open; of dx, 0 in ghosts
+  std::vector<double> whole_nodes;                  ///< fractions of nodes: 1, in ghosts 0
   std::vector<double> node_fraction, node_mass;
   std::vector<double> kinetic_loss;  ///< of whole nodes by mixing in the remap, beside gas, J/kg
   std::vector<double> volume_change;  ///< of cells by what is not flow through faces, m^3

@@ -1,5 +1,5 @@
-// The flow through faces of the Lagrange phase, and the work of the pressure that accelerated the nodes by the adjoint of
-// the same average: kinetic plus internal energy changes only by the works that are booked.
+// The flow through faces of the Lagrange phase, and the work of the pressure that accelerated the nodes by the adjoint
+// of the same average: kinetic plus internal energy changes only by the works that are booked.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -48,9 +48,8 @@ void face_rates(const Fluid& fluid, const Field3& velocity, Field3& rate) {
   const Grid& grid = fluid.grid;
   for_rows(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
-    with_row(fluid, j, k, [&](auto at) {
-      row_rates(at, grid, row_of(velocity, row), 1.0, 1, grid.nx + 1, row_of(rate, row));
-    });
+    with_row(fluid, j, k,
+             [&](auto at) { row_rates(at, grid, row_of(velocity, row), 1.0, 1, grid.nx + 1, row_of(rate, row)); });
   });
 }
 
@@ -72,7 +71,8 @@ void mean_face_rates(Fluid& fluid) {
   const Grid& grid = fluid.grid;
   for_rows(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
-    const auto before = row_of(std::as_const(fluid.velocity), row), after = row_of(std::as_const(fluid.next_velocity), row);
+    const auto before = row_of(std::as_const(fluid.velocity), row),
+               after = row_of(std::as_const(fluid.next_velocity), row);
     const std::array<Sum, 3> velocity{Sum{before[0], after[0]}, Sum{before[1], after[1]}, Sum{before[2], after[2]}};
     with_row(fluid, j, k,
              [&](auto at) { row_rates(at, grid, velocity, 0.5, 1, grid.nx + 1, row_of(fluid.face_rate, row)); });

@@ -204,8 +204,7 @@ class March {
     for (int j = block_.first_j; j <= block_.last_j; ++j) {
       if (j < grid_.ny) leave_y(j + 1, k);
       leave_x(j, k);
-      const RowFlow flow{out_x(),         out_y(j - 1), out_y(j),       out_y(j + 1),
-                         out_z(j, k - 1), out_z(j, k),  out_z(j, k + 1)};
+      const RowFlow flow{out_x(), out_y(j - 1), out_y(j), out_y(j + 1), out_z(j, k - 1), out_z(j, k), out_z(j, k + 1)};
       untouched(fluid_, j, k) ? predict_row<false>(fluid_, step_, j, k, flow)
                               : predict_row<true>(fluid_, step_, j, k, flow);
     }
@@ -228,7 +227,8 @@ double linear_viscosity(const Fluid& fluid) {
 void predict_pressure(Fluid& fluid, double dt) {
   const Grid& grid = fluid.grid;
   const double linear = linear_viscosity(fluid);
-  const Step step{dt, linear - least_linear_viscosity, WidthRatios(grid.dx), WidthRatios(grid.dy), WidthRatios(grid.dz)};
+  const Step step{dt, linear - least_linear_viscosity, WidthRatios(grid.dx), WidthRatios(grid.dy),
+                  WidthRatios(grid.dz)};
   for_blocks(grid, 0, [&](const Block& block) { March(fluid, step, block).run(); });
 }
 

@@ -83,8 +83,8 @@ inline const double* row_mass(const Fluid& fluid, int j, int k) {
   const std::size_t number = static_cast<std::size_t>(j + (fluid.grid.ny + 3) * k);
   const int held = fluid.row_materials[number];
   const std::vector<double>& mass = held == 3 || fluid.cut_rows[number] ? fluid.total_mass
-                                    : held == 2                        ? fluid.material[1].mass
-                                                                       : fluid.material[0].mass;
+                                    : held == 2                         ? fluid.material[1].mass
+                                                                        : fluid.material[0].mass;
   return mass.data() + fluid.grid.at(0, j, k);
 }
 
@@ -103,7 +103,7 @@ void for_blocks(const Grid& grid, int extra, Body&& body) {
   const int across = (ny + rows - 1) / rows, up = (nz + layers - 1) / layers;
   // Even shares, so that no block is a thin rest.
   const auto share = [](int n, int parts, int part) { return n * part / parts; };
-  compute::for_chunks(static_cast<std::size_t>(across) * up, 1, [&](std::size_t b, std::size_t) {
+  compute::for_uneven_chunks(static_cast<std::size_t>(across) * up, 1, [&](std::size_t b, std::size_t) {
     const int y = static_cast<int>(b) % across, z = static_cast<int>(b) / across;
     body(Block{1 + share(ny, across, y), share(ny, across, y + 1), 1 + share(nz, up, z), share(nz, up, z + 1), b});
   });
