@@ -106,7 +106,7 @@ class March {
         width_(static_cast<std::size_t>(grid_.nx) + 3),
         rows_(static_cast<std::size_t>(block.last_j - block.first_j + 1)),
         storage_(scratch()) {
-    storage_.assign(width_ * (51 + 3 * rows_), 0.0);  // ends of rows stay 0
+    storage_.assign(width_ * (17 + 3 * rows_), 0.0);  // ends of rows stay 0
   }
 
   Energies run() {
@@ -123,47 +123,55 @@ class March {
   }
   double* at(std::size_t place) { return storage_.data() + width_ * place; }
   double* force(int d) { return at(static_cast<std::size_t>(d)); }
-  double* above(int d, int j) {
-    return at(51 + static_cast<std::size_t>(d) * rows_ + static_cast<std::size_t>(j - block_.first_j));
-  }
-  EdgeForces edges(int d, int j) {
+  double* next(int d) { return at(static_cast<std::size_t>(3 + d)); }
+  double* next_above(int d) { return at(static_cast<std::size_t>(6 + d)); }
+  EdgeForces edges() {
     EdgeForces of;
-    const std::size_t first = 3 + static_cast<std::size_t>(16 * d + 8 * (j % 2));
     for (std::size_t e = 0; e < 4; ++e) {
-      of.lower[e] = at(first + e);
-      of.upper[e] = at(first + 4 + e);
+      of.lower[e] = at(9 + e);
+      of.upper[e] = at(13 + e);
     }
     return of;
   }
+  double* above(int d, int j) {
+    return at(17 + static_cast<std::size_t>(d) * rows_ + static_cast<std::size_t>(j - block_.first_j));
+  }
 
-  void find_edges(int j, int k) {
+  /// Forces of the row of cells (j, k) and of what is kept from the row and the layer before on the nodes of the row,
+  /// if they are of this block; keeps what the next row and the layer above will feel.
+  void gather(int d, int j, int k) {
+    double *out = force(d), *next_row = next(d), *next_row_above = next_above(d);
+    const EdgeForces on = edges();
     const std::ptrdiff_t row = grid_.at(0, j, k);
-    for (int d = 0; d < 3; ++d) {
-      const EdgeForces out = edges(d, j);
-      if (j >= 1 && j <= grid_.ny && k <= grid_.nz) {
-        edge_forces(fluid_.velocity[d].data() + row, fluid_.viscosity.data() + row, grid_.nx, grid_.sy, grid_.sz, out);
-        continue;
+    if (j >= 1 && j <= grid_.ny && k <= grid_.nz) {
+      edge_forces(fluid_.velocity[d].data() + row, fluid_.viscosity.data() + row, grid_.nx, grid_.sy, grid_.sz, on);
+    } else {
+      for (std::size_t e = 0; e < 4; ++e) {
+        std::fill_n(on.lower[e], width_, 0.0);
+        std::fill_n(on.upper[e], width_, 0.0);
       }
-      for (double* end : out.lower) std::fill_n(end, width_, 0.0);
-      for (double* end : out.upper) std::fill_n(end, width_, 0.0);
+    }
+    const double *l0 = on.lower[0], *u0 = on.upper[0], *l1 = on.lower[1], *u1 = on.upper[1];
+    const double *l2 = on.lower[2], *u2 = on.upper[2], *l3 = on.lower[3], *u3 = on.upper[3];
+    if (j >= block_.first_j) {
+      double* kept = above(d, j);
+#pragma omp simd
+      for (int i = 1; i <= grid_.nx + 1; ++i) {
+        out[i] = kept[i] + ((l0[i] + u0[i - 1]) + next_row[i]);
+        kept[i] = (l2[i] + u2[i - 1]) + next_row_above[i];
+      }
+    }
+#pragma omp simd
+    for (int i = 1; i <= grid_.nx + 1; ++i) {
+      next_row[i] = l1[i] + u1[i - 1];
+      next_row_above[i] = l3[i] + u3[i - 1];
     }
   }
 
   void layer(int k, Energies* sum) {
-    find_edges(block_.first_j - 1, k);
+    for (int d = 0; d < 3; ++d) gather(d, block_.first_j - 1, k);
     for (int j = block_.first_j; j <= block_.last_j; ++j) {
-      find_edges(j, k);
-      for (int d = 0; d < 3; ++d) {
-        const EdgeForces own = edges(d, j), before = edges(d, j - 1);
-        const double *l0 = own.lower[0], *u0 = own.upper[0], *l1 = before.lower[1], *u1 = before.upper[1];
-        const double *l2 = own.lower[2], *u2 = own.upper[2], *l3 = before.lower[3], *u3 = before.upper[3];
-        double *kept = above(d, j), *out = force(d);
-#pragma omp simd
-        for (int i = 1; i <= grid_.nx + 1; ++i) {
-          out[i] = kept[i] + ((l0[i] + u0[i - 1]) + (l1[i] + u1[i - 1]));
-          kept[i] = (l2[i] + u2[i - 1]) + (l3[i] + u3[i - 1]);
-        }
-      }
+      for (int d = 0; d < 3; ++d) gather(d, j, k);
       if (!sum) continue;
       const bool open = untouched(fluid_, j, k) && untouched(fluid_, j - 1, k) && untouched(fluid_, j, k - 1) &&
                         untouched(fluid_, j - 1, k - 1);

@@ -79,57 +79,114 @@ void mean_face_rates(Fluid& fluid) {
   });
 }
 
+namespace {
+
+/// What a row of cells exchanges: volume per time through lower faces, and the weight of half a cell below and above a
+/// face over density and area.
+struct WorkRow {
+  const double *qx, *qy, *qz, *p, *rho;
+  double low, high;
+
+  WorkRow(const Fluid& fluid, int j, int k) {
+    const std::ptrdiff_t row = fluid.grid.at(0, j, k);
+    qx = fluid.face_rate[0].data() + row;
+    qy = fluid.face_rate[1].data() + row;
+    qz = fluid.face_rate[2].data() + row;
+    p = fluid.predicted_pressure.data() + row;
+    rho = fluid.density.data() + row;
+    low = 0.5 * fluid.setup.gravity * fluid.grid.dz[k - 1];
+    high = 0.5 * fluid.setup.gravity * fluid.grid.dz[k];
+  }
+  double flow(std::ptrdiff_t i, std::ptrdiff_t sy, std::ptrdiff_t sz) const {
+    return qx[i + 1] - qx[i] + qy[i + sy] - qy[i] + qz[i + sz] - qz[i];
+  }
+  double lifted(std::ptrdiff_t i, std::ptrdiff_t sz) const { return qz[i] * (low * rho[i - sz] + high * rho[i]); }
+};
+
+/// A row of one material that no solid touches. Returns the work against gravity per time, as do the next ones.
+double work_in_open_row(Fluid& fluid, double dt, int j, int k, Material& own) {
+  const Grid& grid = fluid.grid;
+  const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz;
+  const WorkRow at(fluid, j, k);
+  const double area = grid.dy[j] * grid.dz[k], *dx = grid.dx.data(), *m = own.mass.data() + row;
+  double *volume = fluid.sweep_volume.data() + row, *e = own.energy.data() + row, *held = own.volume.data() + row;
+  double work = 0;
+#pragma omp simd reduction(+ : work)
+  for (int i = 1; i <= grid.nx; ++i) {
+    const double change = dt * at.flow(i, sy, sz), later = dx[i] * area + change;
+    volume[i] = later;
+    e[i] -= m[i] > 0 ? at.p[i] * change : 0.0;
+    held[i] = m[i] > 0 ? later : 0.0;
+    work += at.lifted(i, sz);
+  }
+  return work;
+}
+
+/// Any row: first what its volumes become, then the work on the materials.
+double volumes_of_row(Fluid& fluid, double dt, int j, int k) {
+  const Grid& grid = fluid.grid;
+  const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz;
+  const WorkRow at(fluid, j, k);
+  const double *v0 = fluid.before.volume.data() + row, *swept = fluid.volume_change.data() + row;
+  double *volume = fluid.sweep_volume.data() + row, *rate = fluid.rate.data() + row;
+  const double over_dt = 1.0 / dt;
+  double work = 0;
+#pragma omp simd reduction(+ : work)
+  for (int i = 1; i <= grid.nx; ++i) {
+    const double flow = at.flow(i, sy, sz);
+    rate[i] = flow + swept[i] * over_dt;
+    volume[i] = v0[i] + (dt * flow + swept[i]);
+    work += at.lifted(i, sz);
+  }
+  return work;
+}
+
+void work_on_one(Fluid& fluid, double dt, std::ptrdiff_t row, Material& own) {
+  const double *m = own.mass.data() + row, *p = fluid.predicted_pressure.data() + row, *rate = fluid.rate.data() + row,
+               *volume = fluid.sweep_volume.data() + row;
+  double *e = own.energy.data() + row, *held = own.volume.data() + row;
+#pragma omp simd
+  for (int i = 1; i <= fluid.grid.nx; ++i) {
+    e[i] -= m[i] > 0 ? dt * p[i] * rate[i] : 0.0;
+    held[i] = m[i] > 0 ? volume[i] : 0.0;
+  }
+}
+
+void work_on_both(Fluid& fluid, std::ptrdiff_t row) {
+  for (std::ptrdiff_t c = row + 1; c <= row + fluid.grid.nx; ++c) {
+    const double change = fluid.sweep_volume[c] - fluid.before.volume[c];
+    Mixture mixture;
+    for (int m = 0; m < 2; ++m) {
+      mixture.mass[m] = fluid.material[m].mass[c];
+      mixture.energy[m] = fluid.material[m].energy[c];
+      mixture.volume[m] = fluid.material[m].volume[c];
+    }
+    const std::array<double, 2> share = volume_shares(fluid.setup.law, fluid.setup.pressure_floor, mixture, change);
+    for (int m = 0; m < 2; ++m) {
+      fluid.material[m].energy[c] -= fluid.predicted_pressure[c] * change * share[m];
+      fluid.material[m].volume[c] += change * share[m];
+    }
+  }
+}
+
+}  // namespace
+
 void work_and_volumes(Fluid& fluid, double dt) {
   const Grid& grid = fluid.grid;
-  const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
-  const double g = fluid.setup.gravity;
   const double lifted = row_sum(grid, 0, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
-    const double *qx = fluid.face_rate[0].data() + row, *qy = fluid.face_rate[1].data() + row,
-                 *qz = fluid.face_rate[2].data() + row;
-    const double *v0 = fluid.before.volume.data() + row, *swept = fluid.volume_change.data() + row;
-    const double *p = fluid.predicted_pressure.data() + row, *rho = fluid.density.data() + row;
-    double* __restrict volume = fluid.sweep_volume.data() + row;
-    double* __restrict rate = fluid.rate.data() + row;
-    const double low = 0.5 * g * grid.dz[k - 1], high = 0.5 * g * grid.dz[k], over_dt = 1.0 / dt;
-    double work = 0;
-#pragma omp simd reduction(+ : work)
-    for (int i = 1; i <= grid.nx; ++i) {
-      const double flow = qx[i + 1] - qx[i] + qy[i + sy] - qy[i] + qz[i + sz] - qz[i];
-      rate[i] = flow + swept[i] * over_dt;
-      volume[i] = v0[i] + (dt * flow + swept[i]);
-      work += qz[i] * (low * rho[i - sz] + high * rho[i]);
-    }
-    if (k == grid.nz) {
-      for (int i = 1; i <= grid.nx; ++i) work += qz[i + sz] * (0.5 * g * grid.dz[k] * rho[i]);
-    }
     const int materials = fluid.row_materials[static_cast<std::size_t>(j + (grid.ny + 3) * k)];
-    if (materials != 3) {
-      Material& own = fluid.material[materials == 2 ? 1 : 0];
-      const double* m = own.mass.data() + row;
-      double* __restrict e = own.energy.data() + row;
-      double* __restrict held = own.volume.data() + row;
-      for (int i = 1; i <= grid.nx; ++i) {
-        e[i] -= m[i] > 0 ? dt * p[i] * rate[i] : 0.0;
-        held[i] = m[i] > 0 ? volume[i] : 0.0;
-      }
-      return work;
+    Material& own = fluid.material[materials == 2 ? 1 : 0];
+    double work = 0;
+    if (materials != 3 && untouched(fluid, j, k)) {
+      work = work_in_open_row(fluid, dt, j, k, own);
+    } else {
+      work = volumes_of_row(fluid, dt, j, k);
+      materials != 3 ? work_on_one(fluid, dt, row, own) : work_on_both(fluid, row);
     }
-    for (int i = 1; i <= grid.nx; ++i) {
-      const std::ptrdiff_t c = row + i;
-      const double change = volume[i] - v0[i];
-      Mixture mixture;
-      for (int m = 0; m < 2; ++m) {
-        mixture.mass[m] = fluid.material[m].mass[c];
-        mixture.energy[m] = fluid.material[m].energy[c];
-        mixture.volume[m] = fluid.material[m].volume[c];
-      }
-      const std::array<double, 2> share = volume_shares(fluid.setup.law, fluid.setup.pressure_floor, mixture, change);
-      for (int m = 0; m < 2; ++m) {
-        fluid.material[m].energy[c] -= p[i] * change * share[m];
-        fluid.material[m].volume[c] += change * share[m];
-      }
-    }
+    if (k < grid.nz) return work;
+    const WorkRow at(fluid, j, k);
+    for (int i = 1; i <= grid.nx; ++i) work += at.qz[i + grid.sz] * (at.high * at.rho[i]);
     return work;
   });
   fluid.account.gravity += dt * lifted;
