@@ -384,7 +384,7 @@ void sweep(Fluid& fluid, int axis, double dt, SharedCells& shared) {
     return;
   }
   // Several rows side by side: then what is read from a layer lies together.
-  constexpr std::size_t together = 8;
+  constexpr std::size_t together = 4;
   compute::for_uneven_chunks(static_cast<std::size_t>(grid.ny), together, [&](std::size_t begin, std::size_t end) {
     std::vector<Pencil> pencils;
     for (std::size_t j = begin; j < end; ++j) {
