@@ -55,14 +55,18 @@ void face_rates(const Fluid& fluid, const Field3& velocity, Field3& rate) {
 
 void boundary_face_rates(Fluid& fluid) {
   const Grid& grid = fluid.grid;
+  const auto& side = fluid.setup.boundary;
+  const auto open = [&](int number) { return side[number] != Boundary::wall; };
   for_rows(grid, 1, [&](int j, int k) {
+    const bool whole_row =
+        (j == 1 && open(2)) || (j > grid.ny && open(3)) || (k == 1 && open(4)) || (k > grid.nz && open(5));
+    if (!whole_row && !open(0) && !open(1)) return;
     const std::ptrdiff_t row = grid.at(0, j, k);
-    const bool outermost = j == 1 || k == 1 || j > grid.ny || k > grid.nz;
     with_row(fluid, j, k, [&](auto at) {
       const auto velocity = row_of(std::as_const(fluid.velocity), row);
       const auto rate = row_of(fluid.face_rate, row);
-      row_rates(at, grid, velocity, 1.0, 1, outermost ? grid.nx + 1 : 1, rate);
-      row_rates(at, grid, velocity, 1.0, grid.nx + 1, grid.nx + 1, rate);
+      if (whole_row) row_rates(at, grid, velocity, 1.0, 1, grid.nx + 1, rate);
+      for (const int end : {1, grid.nx + 1}) rate[0][end] = flow_x(at, velocity[0], end, grid.sy, grid.sz);
     });
   });
 }

@@ -5,6 +5,7 @@
 // moving body is Bernoulli's, rho (U.u - u^2/2), added to what is there.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "fluid_solver/phases.hpp"
 
@@ -124,11 +125,14 @@ class Projection {
 
   void sum_rates(Field& out, double sign) const {
     const Grid& grid = f_.grid;
-    for_rows(grid, 0, [&](int j, int k) {
-      const Field &qx = f_.face_rate[0], &qy = f_.face_rate[1], &qz = f_.face_rate[2];
-      for (std::ptrdiff_t c = grid.at(1, j, k), end = c + grid.nx; c < end; ++c) {
-        out[c] = sign * (qx[c + 1] - qx[c] + qy[c + grid.sy] - qy[c] + qz[c + grid.sz] - qz[c]);
-      }
+    const double *qx = f_.face_rate[0].data(), *qy = f_.face_rate[1].data(), *qz = f_.face_rate[2].data();
+    const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
+    for_rows(grid, 0, [&, qx, qy, qz, sy, sz](int j, int k) {
+      double* to = out.data();
+      const std::ptrdiff_t begin = grid.at(1, j, k), end = begin + grid.nx;
+#pragma omp simd
+      for (std::ptrdiff_t c = begin; c < end; ++c)
+        to[c] = sign * (qx[c + 1] - qx[c] + qy[c + sy] - qy[c] + qz[c + sz] - qz[c]);
     });
   }
 
@@ -163,19 +167,22 @@ class Projection {
     copy_to_members(impulse);
     const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
     const double* p = impulse.data();
-    for_rows(grid, 1, [&](int j, int k) {
+    for_rows(grid, 1, [&, p, sy, sz](int j, int k) {
       const std::ptrdiff_t row = grid.at(0, j, k);
       const double *ax = f_.face_coefficient[0].data(), *ay = f_.face_coefficient[1].data(),
                    *az = f_.face_coefficient[2].data();
+      const double *mass = f_.node_mass.data(), *fraction = f_.node_fraction.data();
+      double *u = kick_[0].data(), *v = kick_[1].data(), *w = kick_[2].data();
+#pragma omp simd
       for (std::ptrdiff_t n = row + 1; n <= row + grid.nx + 1; ++n) {
-        const auto sum = [&](const double* a, std::ptrdiff_t s, std::ptrdiff_t t1, std::ptrdiff_t t2) {
-          const auto push = [&](std::ptrdiff_t face) { return a[face] * (p[face - s] - p[face]); };
+        const auto sum = [p, n](const double* a, std::ptrdiff_t s, std::ptrdiff_t t1, std::ptrdiff_t t2) {
+          const auto push = [p, a, s](std::ptrdiff_t face) { return a[face] * (p[face - s] - p[face]); };
           return (push(n) + push(n - t1)) + (push(n - t2) + push(n - t1 - t2));
         };
-        const double scale = f_.node_mass[n] > 0 ? f_.node_fraction[n] / f_.node_mass[n] : 0.0;
-        kick_[0][n] = scale * sum(ax, 1, sy, sz);
-        kick_[1][n] = scale * sum(ay, sy, 1, sz);
-        kick_[2][n] = scale * sum(az, sz, 1, sy);
+        const double scale = mass[n] > 0 ? fraction[n] / (mass[n] > 0 ? mass[n] : 1.0) : 0.0;
+        u[n] = scale * sum(ax, 1, sy, sz);
+        v[n] = scale * sum(ay, sy, 1, sz);
+        w[n] = scale * sum(az, sz, 1, sy);
       }
     });
   }
@@ -198,12 +205,22 @@ class Projection {
   template <class Body>
   void for_all(Body&& body) const {
     compute::for_chunks(f_.grid.size, 1 << 14, [&](std::size_t begin, std::size_t end) {
+#pragma omp simd
       for (std::size_t c = begin; c < end; ++c) body(c);
     });
   }
 
   double dot(const Field& a, const Field& b) const {
-    return compute::ordered_sum(a.size(), 1 << 14, [&](std::size_t c) { return a[c] * b[c]; });
+    constexpr std::size_t chunk = 1 << 14;
+    std::vector<double> partial((a.size() + chunk - 1) / chunk, 0.0);
+    compute::for_chunks(a.size(), chunk, [&](std::size_t begin, std::size_t end) {
+      const double *one = a.data(), *other = b.data();
+      double sum = 0;
+#pragma omp simd reduction(+ : sum)
+      for (std::size_t c = begin; c < end; ++c) sum += one[c] * other[c];
+      partial[begin / chunk] = sum;
+    });
+    return std::accumulate(partial.begin(), partial.end(), 0.0);
   }
 
   Fluid& f_;

@@ -110,10 +110,10 @@ TEST(Motion, NumberOfThreadsChangesNoBit) {
     polynya::fluid::Setup setup;
     setup.boundary.fill(Boundary::non_reflecting);
     setup.gravity = 9.81;
-    Fluid fluid(Grid(even_line(0, side, 9), even_line(0, side, 70), even_line(0, side, 40)), setup);
+    Fluid fluid(Grid(even_line(0, side, 9), even_line(0, side, 40), even_line(0, side, 24)), setup);
     fill_hydrostatic(fluid, overlap_of(fluid.grid, moving_box(0, v), v), 0.0117);
     start_potential_flow(fluid);
-    for (int n = 0; n < 20; ++n) step(fluid, 6e-8, overlap_of(fluid.grid, moving_box(fluid.time + 6e-8, v), v));
+    for (int n = 0; n < 20; ++n) step(fluid, 1e-7, overlap_of(fluid.grid, moving_box(fluid.time + 1e-7, v), v));
     return fluid;
   };
   const int threads = omp_get_max_threads();
