@@ -87,23 +87,35 @@ struct PassingNode {
   std::array<double, 3> own, donor;
 };
 
-std::vector<PassingNode> passing_nodes(const Fluid& fluid) {
+/// Mass that a node gives through its edges, kg.
+double given_mass(const Fluid& fluid, std::ptrdiff_t n) {
   const Grid& grid = fluid.grid;
-  std::vector<std::ptrdiff_t> candidates = fluid.before.nodes();
-  candidates.insert(candidates.end(), fluid.after.nodes().begin(), fluid.after.nodes().end());
-  std::vector<PassingNode> passing;
-  for (const std::ptrdiff_t n : candidates) {
-    double out = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::ptrdiff_t s = grid.stride(axis), t1 = grid.stride((axis + 1) % 3), t2 = grid.stride((axis + 2) % 3);
-      out += std::max(0.0, dual_flux(fluid.face_mass[axis].data(), n, s, t1, t2)) +
-             std::max(0.0, -dual_flux(fluid.face_mass[axis].data(), n - s, s, t1, t2));
-    }
-    if (out > 0.5 * fluid.node_mass[n]) {
-      const std::array<double, 3> own{fluid.next_velocity[0][n], fluid.next_velocity[1][n], fluid.next_velocity[2][n]};
-      passing.push_back({n, own, own});
-    }
+  double out = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::ptrdiff_t s = grid.stride(axis), t1 = grid.stride((axis + 1) % 3), t2 = grid.stride((axis + 2) % 3);
+    out += std::max(0.0, dual_flux(fluid.face_mass[axis].data(), n, s, t1, t2)) +
+           std::max(0.0, -dual_flux(fluid.face_mass[axis].data(), n - s, s, t1, t2));
   }
+  return out;
+}
+
+std::vector<PassingNode> passing_nodes(const Fluid& fluid) {
+  constexpr std::size_t together = 512;
+  const std::size_t first = fluid.before.nodes().size(), count = first + fluid.after.nodes().size();
+  std::vector<std::vector<PassingNode>> found((count + together - 1) / together);
+  compute::for_chunks(count, together, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      const std::ptrdiff_t n = c < first ? fluid.before.nodes()[c] : fluid.after.nodes()[c - first];
+      // Inside solids nothing flows.
+      if (fluid.before.node_fraction[n] == 0 && fluid.after.node_fraction[n] == 0) continue;
+      const double out = given_mass(fluid, n);
+      if (!(out > 0.5 * fluid.node_mass[n])) continue;
+      const std::array<double, 3> own{fluid.next_velocity[0][n], fluid.next_velocity[1][n], fluid.next_velocity[2][n]};
+      found[begin / together].push_back({n, own, own});
+    }
+  });
+  std::vector<PassingNode> passing;
+  for (const auto& some : found) passing.insert(passing.end(), some.begin(), some.end());
   // Most nodes are listed before and after; few pass.
   std::sort(passing.begin(), passing.end(), [](const PassingNode& a, const PassingNode& b) { return a.node < b.node; });
   const auto same = [](const PassingNode& a, const PassingNode& b) { return a.node == b.node; };
