@@ -102,7 +102,7 @@ struct Fluid {
   std::array<std::vector<double>, 3> next_velocity;
   // Rows that no solid touches, by i.
   std::vector<double> open_quarter, quarter_width;  ///< a quarter where the x-face is open; of dx, 0 in ghosts
-  std::vector<double> whole_nodes;                  ///< fractions of nodes: 1, in ghosts 0
+  std::vector<double> whole_nodes;                  ///< fractions of nodes from i = -1 on: 1, in ghosts 0
   std::vector<double> node_fraction, node_mass;
   std::vector<double> kinetic_loss;  ///< of whole nodes by mixing in the remap, beside gas, J/kg
   std::vector<double> volume_change;  ///< of cells by what is not flow through faces, m^3

@@ -50,7 +50,7 @@ struct EdgeRow {
     const double* mass = fluid.node_mass.data() + row;
     const std::ptrdiff_t before = at_lower_end ? 0 : -s, beyond = at_upper_end ? s : 2 * s;
     const bool all_whole = open();
-    const double* b = all_whole ? fluid.whole_nodes.data() : fluid.node_fraction.data() + row;
+    const double* b = all_whole ? fluid.whole_nodes.data() + 1 : fluid.node_fraction.data() + row;
     const std::ptrdiff_t step = all_whole && axis > 0 ? 0 : 1;  // whole rows are all the same
     const std::ptrdiff_t b_before = step * before, b_other = step * s, b_beyond = step * beyond;
     const double *u = fluid.next_velocity[0].data() + row, *v = fluid.next_velocity[1].data() + row,
