@@ -108,7 +108,7 @@ class Pencil {
   void run_row(int j, int k) {
     CellRow& row = rows_[0];
     FaceRow& face = faces_[0];
-    load(row, j, k);
+    load(row, {j, k});
     const int n = grid_.nx;
     for (double* array :
          {row.inverse, row.mass[0], row.mass[1], row.energy[0], row.energy[1], row.plain[0], row.plain[1]}) {
@@ -182,7 +182,8 @@ class Pencil {
     return axis_ == 1 ? std::array<int, 2>{r, other} : std::array<int, 2>{other, r};
   }
 
-  void load(CellRow& row, int j, int k) {
+  void load(CellRow& row, std::array<int, 2> place) {
+    const auto [j, k] = place;
     const std::ptrdiff_t at = grid_.at(0, j, k);
     const int n = grid_.nx;
     const bool ghost = j < 1 || k < 1 || j > grid_.ny || k > grid_.nz;
@@ -222,7 +223,6 @@ class Pencil {
       }
     }
   }
-  void load(CellRow& row, std::array<int, 2> place) { load(row, place[0], place[1]); }
 
   template <class SlopeOf>
   void carry_material(bool general, int first, int last, FaceRow& face, int m, const double* below, const double* above,
@@ -322,10 +322,6 @@ class Pencil {
   std::vector<double> part_, ones_, zeros_;
   FaceSmoothing smooth_;
 };
-
-}  // namespace
-
-namespace {
 
 /// One layer, along x or y.
 void sweep_layer(Pencil& pencil, const Grid& grid, int axis, int k) {
