@@ -1,5 +1,11 @@
+#include <omp.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
+#include <fstream>
 #include <memory>
 
 #include "bench/kernels.hpp"
@@ -44,14 +50,47 @@ std::unique_ptr<fluid::Fluid> basin() {
   return basin;
 }
 
+/// Memory of this process that is there, bytes (Linux).
+double resident_memory() {
+  std::ifstream file("/proc/self/statm");
+  double all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+double wall_seconds(const std::function<void()>& call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Shortest wall time of a call with one thread over that with two, taken in turns.
+double speedup_of_two_threads(int repetitions, const std::function<void()>& call) {
+  std::array<double, 2> shortest{1e300, 1e300};
+  for (int k = 0; k < repetitions; ++k) {
+    for (int threads = 1; threads <= 2; ++threads) {
+      omp_set_num_threads(threads);
+      shortest[threads - 1] = std::min(shortest[threads - 1], wall_seconds(call));
+    }
+  }
+  omp_set_num_threads(1);
+  return shortest[0] / shortest[1];
+}
+
 }  // namespace
 
-/// One whole step (equation of state, Lagrange phase, remap, account) per cell, ns.
+/// One whole step (equation of state, Lagrange phase, remap, account) per cell on one thread, ns; how much faster two
+/// threads are (only on cores that are free); memory per cell, bytes.
 std::vector<Figure> fluid_step() {
+  const double before = resident_memory();
   const auto water = basin();
-  const double dt = 0.8 * fluid::stable_step(*water);
-  const double seconds = shortest_time(10, [&] { fluid::step(*water, dt, {}); });
-  return {{"fluid.cell_ns", 1e9 * seconds / static_cast<double>(water->grid.cells())}};
+  const double dt = 0.8 * fluid::stable_step(*water), cells_in_all = static_cast<double>(water->grid.cells());
+  const auto one_step = [&] { fluid::step(*water, dt, {}); };
+  const double seconds = shortest_time(10, one_step);
+  const double memory = resident_memory() - before;
+  return {{"fluid.cell_ns", 1e9 * seconds / cells_in_all},
+          {"fluid.two_threads_speedup", speedup_of_two_threads(10, one_step)},
+          {"fluid.cell_bytes", memory / cells_in_all}};
 }
 
 }  // namespace polynya::bench

@@ -15,7 +15,7 @@ struct Figure {
 /// call, not counted, warms caches and pages.
 double shortest_time(int repetitions, const std::function<void()>& call);
 
-// One function per file; each runs on one thread.
+// One function per file; each runs on one thread, and says so where it also tries two.
 std::vector<Figure> machine_triad();
 std::vector<Figure> hexahedron_elastic();
 std::vector<Figure> hexahedron_jh2();

@@ -50,7 +50,7 @@ const Kernel kernels[] = {
 };
 
 int run(int argc, char** argv) {
-  CLI::App app{"Speed of the kernels on one thread"};
+  CLI::App app{"Speed of the kernels, on one thread unless a figure says otherwise"};
   bool json = false;
   std::string only;
   app.add_flag("--json", json, "print one flat JSON object");

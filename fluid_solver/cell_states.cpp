@@ -5,6 +5,7 @@
 
 #include "fluid_solver/phases.hpp"
 #include "fluid_solver/pressure_equilibrium.hpp"
+#include "fluid_solver/row_geometry.hpp"
 
 namespace polynya::fluid {
 namespace {
@@ -80,10 +81,12 @@ void evaluate_cells(Fluid& fluid, const std::vector<double>& volume) {
     for (std::ptrdiff_t c = begin; c < end; ++c) {
       has0 = std::max(has0, m0[c]);
       has1 = std::max(has1, m1[c]);
-      fluid.total_mass[c] = m0[c] + m1[c];
     }
     const int held = (has0 > 0 ? 1 : 0) | (has1 > 0 ? 2 : 0);
     fluid.row_materials[static_cast<std::size_t>(j + (grid.ny + 3) * k)] = static_cast<unsigned char>(held);
+    if (held == 3 || !untouched(fluid, j, k)) {
+      for (std::ptrdiff_t c = begin; c < end; ++c) fluid.total_mass[c] = m0[c] + m1[c];
+    }
     if (held != 3) {
       evaluate_pure_cells(fluid, held == 2 ? 1 : 0, begin, end, volume);
       return;

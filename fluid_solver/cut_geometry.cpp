@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/compute/large_pages.hpp"
+
 namespace polynya::fluid {
 
 double empty_open_fraction(const Grid& grid, const std::array<Boundary, 6>& boundary, int axis, std::ptrdiff_t face) {
@@ -20,8 +22,10 @@ double empty_open_fraction(const Grid& grid, const std::array<Boundary, 6>& boun
 }
 
 CutGeometry::CutGeometry(const Grid& grid, const std::array<Boundary, 6>& boundary)
-    : volume(grid.size, 0.0), node_fraction(grid.size, 0.0), listed_(grid.size, 0) {
-  for (auto& fraction : open) fraction.assign(grid.size, 0.0);
+    : volume(compute::zeros_in_large_pages(grid.size)),
+      node_fraction(compute::zeros_in_large_pages(grid.size)),
+      listed_(grid.size, 0) {
+  for (auto& fraction : open) fraction = compute::zeros_in_large_pages(grid.size);
   for_rows(grid, 1, [&](int j, int k) {
     for (int i = 1; i <= grid.nx + 1; ++i) {
       const std::ptrdiff_t c = grid.at(i, j, k);
@@ -32,10 +36,10 @@ CutGeometry::CutGeometry(const Grid& grid, const std::array<Boundary, 6>& bounda
   });
 }
 
-void CutGeometry::restore(const Grid& grid, const std::array<Boundary, 6>& boundary) {
+void CutGeometry::restore(const Grid& grid) {
   for (const std::ptrdiff_t c : cells_) volume[c] = grid.cell_volume[c];
   for (int axis = 0; axis < 3; ++axis) {
-    for (const std::ptrdiff_t f : faces_[axis]) open[axis][f] = empty_open_fraction(grid, boundary, axis, f);
+    for (std::size_t f = faces_[axis].size(); f-- > 0;) open[axis][faces_[axis][f].index] = faces_[axis][f].empty;
     faces_[axis].clear();
   }
   for (const std::ptrdiff_t n : nodes_) node_fraction[n] = 1.0;
@@ -46,7 +50,7 @@ void CutGeometry::restore(const Grid& grid, const std::array<Boundary, 6>& bound
 }
 
 void CutGeometry::set(const Grid& grid, const std::array<Boundary, 6>& boundary, const Overlap& overlap) {
-  restore(grid, boundary);
+  restore(grid);
   for (std::size_t m = 0; m < overlap.cell.size(); ++m) {
     const std::ptrdiff_t c = grid.from_message(overlap.cell[m]);
     const double full = grid.cell_volume[c], solid = overlap.solid_volume[m];
@@ -74,13 +78,15 @@ void CutGeometry::set(const Grid& grid, const std::array<Boundary, 6>& boundary,
     }
     walls.push_back(piece);
   }
-  std::sort(walls.begin(), walls.end(), [](const WallPiece& a, const WallPiece& b) { return a.cell < b.cell; });
+  const auto in_order = [](const WallPiece& a, const WallPiece& b) { return a.cell < b.cell; };
+  if (!std::is_sorted(walls.begin(), walls.end(), in_order)) std::sort(walls.begin(), walls.end(), in_order);
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t m = 0; m < overlap.face[axis].size(); ++m) {
       const std::ptrdiff_t f = grid.face_from_message(axis, overlap.face[axis][m]);
       const double solid = std::clamp(overlap.face_solid[axis][m], 0.0, 1.0);
-      open[axis][f] = empty_open_fraction(grid, boundary, axis, f) * (1.0 - solid);
-      faces_[axis].push_back(f);
+      const double empty = open[axis][f];  // as `restore` has left it
+      open[axis][f] = empty * (1.0 - solid);
+      faces_[axis].push_back({f, empty});
     }
   }
   // Nothing flows through the faces of a cell without fluid.
@@ -89,8 +95,8 @@ void CutGeometry::set(const Grid& grid, const std::array<Boundary, 6>& boundary,
     for (int axis = 0; axis < 3; ++axis) {
       for (const std::ptrdiff_t f : {c, c + grid.stride(axis)}) {
         if (open[axis][f] == 0.0) continue;
+        faces_[axis].push_back({f, empty_open_fraction(grid, boundary, axis, f)});
         open[axis][f] = 0.0;
-        faces_[axis].push_back(f);
       }
     }
   }

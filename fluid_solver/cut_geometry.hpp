@@ -36,11 +36,15 @@ struct CutGeometry {
   void open_like(const CutGeometry& later);
 
  private:
-  void restore(const Grid& grid, const std::array<Boundary, 6>& boundary);
+  struct Touched {
+    std::ptrdiff_t index;
+    double empty;  ///< open fraction in the empty grid
+  };
+  void restore(const Grid& grid);
   void update_nodes(const Grid& grid);
   std::vector<std::ptrdiff_t> cells_, nodes_;
   std::vector<char> listed_;  ///< scratch by node, 0 between calls
-  std::array<std::vector<std::ptrdiff_t>, 3> faces_;
+  std::array<std::vector<Touched>, 3> faces_;
 };
 
 /// Open fraction of a face without solids: 1 inside and at open boundaries, 0 at walls and outside.

@@ -52,10 +52,27 @@ std::vector<unsigned char> rows_to_update(Fluid& fluid) {
   return rows;
 }
 
+/// What rows that no solid touches are made from.
+void set_open_rows(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  const std::size_t width = static_cast<std::size_t>(grid.nx) + 3;
+  fluid.open_quarter.assign(width, 0.0);
+  fluid.quarter_width.assign(width, 0.0);
+  fluid.whole_nodes.assign(width + 2, 0.0);
+  for (int i = 1; i <= grid.nx + 1; ++i) {
+    const bool shut = (i == 1 && fluid.setup.boundary[0] == Boundary::wall) ||
+                      (i == grid.nx + 1 && fluid.setup.boundary[1] == Boundary::wall);
+    fluid.whole_nodes[i + 1] = 1.0;
+    fluid.open_quarter[i] = shut ? 0.0 : 0.25;
+    fluid.quarter_width[i] = i <= grid.nx ? 0.25 * grid.dx[i] : 0.0;
+  }
+}
+
 }  // namespace
 
 void update_face_coefficients(Fluid& fluid) {
   const Grid& grid = fluid.grid;
+  set_open_rows(fluid);
   const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
   const double *b0 = fluid.before.node_fraction.data(), *b1 = fluid.after.node_fraction.data();
   double* beta = fluid.node_fraction.data();

@@ -3,26 +3,30 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/compute/large_pages.hpp"
 #include "fluid_solver/phases.hpp"
 
 namespace polynya::fluid {
 
 Fluid::Fluid(Grid grid_in, Setup setup_in)
-    : grid(std::move(grid_in)), setup(std::move(setup_in)), before(grid, setup.boundary), after(before) {
+    : grid(std::move(grid_in)), setup(std::move(setup_in)), before(grid, setup.boundary), after(grid, setup.boundary) {
   const std::size_t size = grid.size;
-  for (auto& m : material) m.mass = m.energy = m.volume = std::vector<double>(size, 0.0);
-  for (auto* arrays : {&velocity, &face_coefficient, &face_rate, &face_mass, &force, &next_velocity}) {
-    for (auto& array : *arrays) array.assign(size, 0.0);
+  for (auto& m : material)
+    for (auto* array : {&m.mass, &m.energy, &m.volume}) *array = compute::zeros_in_large_pages(size);
+  for (auto* arrays : {&velocity, &face_coefficient, &face_rate, &face_mass, &next_velocity}) {
+    for (auto& array : *arrays) array = compute::zeros_in_large_pages(size);
   }
-  for (auto* array : {&pressure, &predicted_pressure, &density, &bulk_modulus, &sound_speed, &total_mass, &node_fraction,
-                      &node_mass, &volume_change, &viscosity, &rate, &sweep_volume}) {
-    array->assign(size, 0.0);
+  for (auto* array : {&pressure, &predicted_pressure, &density, &bulk_modulus, &sound_speed, &total_mass,
+                      &node_fraction, &node_mass, &kinetic_loss, &volume_change, &viscosity, &rate, &sweep_volume}) {
+    *array = compute::zeros_in_large_pages(size);
   }
-  for (auto& d : donor) d.mass = d.energy = d.volume = std::vector<double>(size, 0.0);
+  for (auto& d : donor)
+    for (auto* array : {&d.mass, &d.energy, &d.volume}) *array = compute::zeros_in_large_pages(size);
   for (auto* rows : {&row_materials, &row_held}) rows->assign(static_cast<std::size_t>(grid.ny + 3) * (grid.nz + 3), 0);
   held.assign(size, 0);
   cut_rows.assign(row_materials.size(), 1);
-  const std::array<std::size_t, 3> faces{static_cast<std::size_t>(grid.ny) * grid.nz, static_cast<std::size_t>(grid.nx) * grid.nz,
+  const std::array<std::size_t, 3> faces{static_cast<std::size_t>(grid.ny) * grid.nz,
+                                         static_cast<std::size_t>(grid.nx) * grid.nz,
                                          static_cast<std::size_t>(grid.nx) * grid.ny};
   for (int side = 0; side < 6; ++side) {
     if (setup.boundary[side] != Boundary::wall) outflow[side].assign(faces[side / 2], {});
@@ -69,7 +73,8 @@ double wall_pressure(const Fluid& fluid, std::ptrdiff_t cell) {
   return fluid.steps > 0 || fluid.predicted_pressure[cell] != 0 ? fluid.predicted_pressure[cell] : fluid.pressure[cell];
 }
 
-void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<double>& value, std::vector<double>& gradient) {
+void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<double>& value,
+                      std::vector<double>& gradient) {
   const std::size_t count = overlap.cell.size();
   value.assign(count, 0.0);
   gradient.assign(count, 0.0);
@@ -84,19 +89,21 @@ double stable_step(const Fluid& fluid) {
   const Grid& grid = fluid.grid;
   const std::size_t rows = static_cast<std::size_t>(grid.ny) * grid.nz;
   return 0.5 * compute::ordered_minimum(rows, 16, 1e300, [&](std::size_t row_number) {
-    const int j = 1 + static_cast<int>(row_number % grid.ny), k = 1 + static_cast<int>(row_number / grid.ny);
-    const std::ptrdiff_t row = grid.at(0, j, k);
-    const double thickness = std::min(grid.dy[j], grid.dz[k]);
-    const double* sound = fluid.sound_speed.data() + row;
-    const double *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row, *w = fluid.velocity[2].data() + row;
-    double least = 1e300;
-    for (int i = 1; i <= grid.nx; ++i) {
-      const double speed = sound[i] + std::sqrt(u[i] * u[i] + v[i] * v[i] + w[i] * w[i]);
-      const double step = sound[i] > 0 ? std::min(grid.dx[i], thickness) / (speed > 0 ? speed : 1.0) : 1e300;
-      least = std::min(least, step);
-    }
-    return least;
-  });
+           const int j = 1 + static_cast<int>(row_number % grid.ny), k = 1 + static_cast<int>(row_number / grid.ny);
+           const std::ptrdiff_t row = grid.at(0, j, k);
+           const double thickness = std::min(grid.dy[j], grid.dz[k]);
+           const double* sound = fluid.sound_speed.data() + row;
+           const double *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row,
+                        *w = fluid.velocity[2].data() + row;
+           double least = 1e300;
+#pragma omp simd reduction(min : least)
+           for (int i = 1; i <= grid.nx; ++i) {
+             const double speed = sound[i] + std::sqrt(u[i] * u[i] + v[i] * v[i] + w[i] * w[i]);
+             const double step = sound[i] > 0 ? std::min(grid.dx[i], thickness) / (speed > 0 ? speed : 1.0) : 1e300;
+             least = std::min(least, step);
+           }
+           return least;
+         });
 }
 
 bool update_account(Fluid& fluid) {
@@ -108,6 +115,7 @@ bool update_account(Fluid& fluid) {
       const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
       const double *e0 = fluid.material[0].energy.data() + row, *e1 = fluid.material[1].energy.data() + row;
       double first = 0, second = 0, internal = 0, least = 0;
+#pragma omp simd reduction(+ : first, second, internal) reduction(min : least)
       for (int i = 1; i <= grid.nx; ++i) {
         least = std::min(least, std::min(m0[i], m1[i]));
         first += m0[i];
@@ -117,9 +125,10 @@ bool update_account(Fluid& fluid) {
       sum = {first, second, internal};
       sum[7] = least;
     }
-    const double *m = fluid.node_mass.data() + row, *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row,
-                 *w = fluid.velocity[2].data() + row;
+    const double *m = fluid.node_mass.data() + row, *u = fluid.velocity[0].data() + row,
+                 *v = fluid.velocity[1].data() + row, *w = fluid.velocity[2].data() + row;
     double x = 0, y = 0, z = 0, kinetic = 0;
+#pragma omp simd reduction(+ : x, y, z, kinetic)
     for (int n = 1; n <= grid.nx + 1; ++n) {
       x += m[n] * u[n];
       y += m[n] * v[n];
@@ -146,6 +155,7 @@ void update_node_mass(Fluid& fluid) {
   for_rows(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz;
     const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
+#pragma omp simd
     for (std::ptrdiff_t n = 1; n <= grid.nx + 1; ++n) {
       const auto pair = [&](std::ptrdiff_t c) { return (m0[c] + m1[c]) + (m0[c - 1] + m1[c - 1]); };
       fluid.node_mass[row + n] = 0.125 * ((pair(n) + pair(n - sy)) + (pair(n - sz) + pair(n - sy - sz)));

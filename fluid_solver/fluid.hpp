@@ -93,17 +93,21 @@ struct Fluid {
   std::vector<double> density;                                     ///< of the mixture, per free volume, kg/m^3
   std::vector<double> bulk_modulus;                                ///< of the mixture, 0 where water cavitates, Pa
   std::vector<double> sound_speed;                                 ///< the largest of the materials present, m/s
-  std::vector<double> total_mass;                                  ///< of both materials, kg
+  std::vector<double> total_mass;                                  ///< of both materials, kg; only in rows that hold both or
+                                                                   ///< that solids touch
   // Working space of a step.
   std::array<std::vector<double>, 3> face_coefficient;  ///< open area over the sum of node fractions of the face
   std::array<std::vector<double>, 3> face_rate;         ///< volume per time through lower faces, m^3/s
   std::array<std::vector<double>, 3> face_mass;         ///< mass through lower faces in this step, kg
-  std::array<std::vector<double>, 3> force;             ///< hourglass force of nodes, N
   std::array<std::vector<double>, 3> next_velocity;
+  // Rows that no solid touches, by i.
+  std::vector<double> open_quarter, quarter_width;  ///< a quarter where the x-face is open; of dx, 0 in ghosts
+  std::vector<double> whole_nodes;                  ///< fractions of nodes from i = -1 on: 1, in ghosts 0
   std::vector<double> node_fraction, node_mass;
+  std::vector<double> kinetic_loss;  ///< of whole nodes by mixing in the remap, beside gas, J/kg
   std::vector<double> volume_change;  ///< of cells by what is not flow through faces, m^3
   std::vector<double> viscosity;      ///< hourglass coefficient of cells, kg/s
-  std::vector<double> rate;           ///< of volume, at the beginning of the step, m^3/s
+  std::vector<double> rate;           ///< of volume in rows that solids touch, m^3/s
   /// What leaves the cells that solids cut, and in ghosts what flows in.
   struct Donor {
     std::vector<double> mass, energy, volume;  ///< per Lagrangian volume

@@ -45,7 +45,7 @@ struct Grid {
 template <class Body>
 void for_rows(const Grid& grid, int extra, Body&& body) {
   const std::size_t rows_y = static_cast<std::size_t>(grid.ny + extra), rows_z = static_cast<std::size_t>(grid.nz + extra);
-  compute::for_chunks(rows_y * rows_z, 16, [&](std::size_t begin, std::size_t end) {
+  compute::for_uneven_chunks(rows_y * rows_z, 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       body(1 + static_cast<int>(row % rows_y), 1 + static_cast<int>(row / rows_y));
     }
@@ -61,7 +61,7 @@ std::array<double, count> row_sums(const Grid& grid, int extra, Term&& term) {
   const std::size_t rows_y = static_cast<std::size_t>(grid.ny + extra), rows = rows_y * static_cast<std::size_t>(grid.nz + extra);
   constexpr std::size_t chunk = 16;
   std::vector<std::array<double, count>> partial((rows + chunk - 1) / chunk);
-  compute::for_chunks(rows, chunk, [&](std::size_t begin, std::size_t end) {
+  compute::for_uneven_chunks(rows, chunk, [&](std::size_t begin, std::size_t end) {
     std::array<double, count> sum{};
     for (std::size_t row = begin; row < end; ++row) {
       const std::array<double, count> own = term(1 + static_cast<int>(row % rows_y), 1 + static_cast<int>(row / rows_y));
@@ -79,10 +79,7 @@ std::array<double, count> row_sums(const Grid& grid, int extra, Term&& term) {
 /// Sum over rows of term(j, k), added in the order of the rows whatever the number of threads.
 template <class Term>
 double row_sum(const Grid& grid, int extra, Term&& term) {
-  const std::size_t rows_y = static_cast<std::size_t>(grid.ny + extra), rows_z = static_cast<std::size_t>(grid.nz + extra);
-  return compute::ordered_sum(rows_y * rows_z, 16, [&](std::size_t row) {
-    return term(1 + static_cast<int>(row % rows_y), 1 + static_cast<int>(row / rows_y));
-  });
+  return row_sums<1>(grid, extra, [&](int j, int k) { return std::array<double, 1>{term(j, k)}; })[0];
 }
 
 }  // namespace polynya::fluid

@@ -76,11 +76,8 @@ void find_shared_cells(Fluid& fluid, SharedCells& cells) {
       }
     }
   };
-  compute::for_chunks(static_cast<std::size_t>(grid.nz), planes_per_chunk(grid.sz),
-                      [&](std::size_t begin, std::size_t end) {
-                        for (std::size_t layer = begin; layer < end; ++layer)
-                          find_in_layer(static_cast<int>(layer) + 1);
-                      });
+  compute::for_uneven_chunks(static_cast<std::size_t>(grid.nz), 1,
+                             [&](std::size_t layer, std::size_t) { find_in_layer(static_cast<int>(layer) + 1); });
 }
 
 void forget_shared_cells(Fluid& fluid) {

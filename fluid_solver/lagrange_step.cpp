@@ -1,143 +1,204 @@
-// The Lagrange phase: volume rates, predicted pressure, acceleration of nodes by the adjoint of the face average, and the
-// work that goes with it, so that kinetic plus internal energy changes only by the works that are booked.
+// The flow through faces of the Lagrange phase, and the work of the pressure that accelerated the nodes by the adjoint
+// of the same average: kinetic plus internal energy changes only by the works that are booked.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fluid_solver/phases.hpp"
 #include "fluid_solver/pressure_equilibrium.hpp"
+#include "fluid_solver/row_geometry.hpp"
 
 namespace polynya::fluid {
 namespace {
 
-template <bool mean>
-void rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity, std::array<std::vector<double>, 3>& rate) {
-  const Grid& grid = fluid.grid;
+/// The sum of two fields, read like one.
+struct Sum {
+  const double *first, *second;
+  double operator[](std::ptrdiff_t i) const { return first[i] + second[i]; }
+};
+
+/// Volume per time through the lower faces of rows (j, k), entries `first` to `last`: half the flow if velocities are
+/// sums of two.
+template <class Row, class Velocity>
+void row_rates(const Row& row, const Grid& grid, const std::array<Velocity, 3>& velocity, double part, int first,
+               int last, const std::array<double*, 3>& rate) {
   const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
-  for_rows(grid, 1, [&](int j, int k) {
-    const std::ptrdiff_t row = grid.at(0, j, k);
-    const double* b = fluid.node_fraction.data() + row;
-    const double *u = velocity[0].data() + row, *v = velocity[1].data() + row, *w = velocity[2].data() + row;
-    const double *ax = fluid.face_coefficient[0].data() + row, *ay = fluid.face_coefficient[1].data() + row,
-                 *az = fluid.face_coefficient[2].data() + row;
-    double* __restrict qx = rate[0].data() + row;
-    double* __restrict qy = rate[1].data() + row;
-    double* __restrict qz = rate[2].data() + row;
-    for (int i = 1; i <= grid.nx + 1; ++i) {
-      const double b00 = b[i], b10 = b[i + 1], by0 = b[i + sy], by1 = b[i + 1 + sy], bz0 = b[i + sz], bz1 = b[i + 1 + sz];
-      const double rx = ax[i] * ((b00 * u[i] + by0 * u[i + sy]) + (bz0 * u[i + sz] + b[i + sy + sz] * u[i + sy + sz]));
-      const double ry = ay[i] * ((b00 * v[i] + b10 * v[i + 1]) + (bz0 * v[i + sz] + bz1 * v[i + 1 + sz]));
-      const double rz = az[i] * ((b00 * w[i] + b10 * w[i + 1]) + (by0 * w[i + sy] + by1 * w[i + 1 + sy]));
-      qx[i] = mean ? 0.5 * (qx[i] + rx) : rx;
-      qy[i] = mean ? 0.5 * (qy[i] + ry) : ry;
-      qz[i] = mean ? 0.5 * (qz[i] + rz) : rz;
-    }
-  });
+  const auto [u, v, w] = velocity;
+  const auto [qx, qy, qz] = rate;
+#pragma omp simd
+  for (int i = first; i <= last; ++i) {
+    qx[i] = part * flow_x(row, u, i, sy, sz);
+    qy[i] = part * flow_y(row, v, i, sz);
+    qz[i] = part * flow_z(row, w, i, sy);
+  }
+}
+
+using Field3 = std::array<std::vector<double>, 3>;
+
+std::array<const double*, 3> row_of(const Field3& field, std::ptrdiff_t row) {
+  return {field[0].data() + row, field[1].data() + row, field[2].data() + row};
+}
+std::array<double*, 3> row_of(Field3& field, std::ptrdiff_t row) {
+  return {field[0].data() + row, field[1].data() + row, field[2].data() + row};
 }
 
 }  // namespace
 
-void face_rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity, std::array<std::vector<double>, 3>& rate) {
-  rates<false>(fluid, velocity, rate);
-}
-
-void mean_face_rates(Fluid& fluid) { rates<true>(fluid, fluid.next_velocity, fluid.face_rate); }
-
-double accelerate_nodes(Fluid& fluid, double dt) {
+void face_rates(const Fluid& fluid, const Field3& velocity, Field3& rate) {
   const Grid& grid = fluid.grid;
-  const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
-  const double g = fluid.setup.gravity;
-  const auto [dissipated, kinetic] = row_sums<2>(grid, 1, [&](int j, int k) {
+  for_rows(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
-    const double *m = fluid.total_mass.data() + row, *p = fluid.predicted_pressure.data() + row, *rho = fluid.density.data() + row;
-    const double *ax = fluid.face_coefficient[0].data() + row, *ay = fluid.face_coefficient[1].data() + row,
-                 *az = fluid.face_coefficient[2].data() + row;
-    const double* b = fluid.node_fraction.data() + row;
-    const double *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row, *w = fluid.velocity[2].data() + row;
-    const double *hx = fluid.force[0].data() + row, *hy = fluid.force[1].data() + row, *hz = fluid.force[2].data() + row;
-    double* __restrict un = fluid.next_velocity[0].data() + row;
-    double* __restrict vn = fluid.next_velocity[1].data() + row;
-    double* __restrict wn = fluid.next_velocity[2].data() + row;
-    double* __restrict mass = fluid.node_mass.data() + row;
-    const double low = 0.5 * g * grid.dz[k - 1], high = 0.5 * g * grid.dz[k];
-    const auto lift = [&](std::ptrdiff_t f) { return p[f - sz] - p[f] - (low * rho[f - sz] + high * rho[f]); };
-    double loss = 0, moving = 0;
-    for (std::ptrdiff_t n = 1; n <= grid.nx + 1; ++n) {
-      const std::ptrdiff_t y = n - sy, z = n - sz, yz = n - sy - sz;
-      const double node = 0.125 * (((m[n] + m[n - 1]) + (m[y] + m[y - 1])) + ((m[z] + m[z - 1]) + (m[yz] + m[yz - 1])));
-      const double fx = ax[n] * (p[n - 1] - p[n]) + ax[y] * (p[y - 1] - p[y]) + ax[z] * (p[z - 1] - p[z]) + ax[yz] * (p[yz - 1] - p[yz]);
-      const double fy = ay[n] * (p[n - sy] - p[n]) + ay[n - 1] * (p[n - 1 - sy] - p[n - 1]) + ay[z] * (p[z - sy] - p[z]) +
-                        ay[z - 1] * (p[z - 1 - sy] - p[z - 1]);
-      const double fz = az[n] * lift(n) + az[n - 1] * lift(n - 1) + az[y] * lift(y) + az[y - 1] * lift(y - 1);
-      const double per_mass = node > 0 ? dt / (node > 0 ? node : 1.0) : 0.0;
-      un[n] = u[n] + per_mass * (b[n] * fx + hx[n]);
-      vn[n] = v[n] + per_mass * (b[n] * fy + hy[n]);
-      wn[n] = w[n] + per_mass * (b[n] * fz + hz[n]);
-      mass[n] = node;
-      moving += 0.5 * node * (un[n] * un[n] + vn[n] * vn[n] + wn[n] * wn[n]);
-      loss -= 0.5 * (node > 0 ? dt : 0.0) * (hx[n] * (u[n] + un[n]) + hy[n] * (v[n] + vn[n]) + hz[n] * (w[n] + wn[n]));
-    }
-    return std::array<double, 2>{loss, moving};
+    with_row(fluid, j, k,
+             [&](auto at) { row_rates(at, grid, row_of(velocity, row), 1.0, 1, grid.nx + 1, row_of(rate, row)); });
   });
-  fluid.account.hourglass += dissipated;
-  return kinetic;
 }
+
+void boundary_face_rates(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  const auto& side = fluid.setup.boundary;
+  const auto open = [&](int number) { return side[number] != Boundary::wall; };
+  for_rows(grid, 1, [&](int j, int k) {
+    const bool whole_row =
+        (j == 1 && open(2)) || (j > grid.ny && open(3)) || (k == 1 && open(4)) || (k > grid.nz && open(5));
+    if (!whole_row && !open(0) && !open(1)) return;
+    const std::ptrdiff_t row = grid.at(0, j, k);
+    with_row(fluid, j, k, [&](auto at) {
+      const auto velocity = row_of(std::as_const(fluid.velocity), row);
+      const auto rate = row_of(fluid.face_rate, row);
+      if (whole_row) row_rates(at, grid, velocity, 1.0, 1, grid.nx + 1, rate);
+      for (const int end : {1, grid.nx + 1}) rate[0][end] = flow_x(at, velocity[0], end, grid.sy, grid.sz);
+    });
+  });
+}
+
+void mean_face_rates(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  for_rows(grid, 1, [&](int j, int k) {
+    const std::ptrdiff_t row = grid.at(0, j, k);
+    const auto before = row_of(std::as_const(fluid.velocity), row),
+               after = row_of(std::as_const(fluid.next_velocity), row);
+    const std::array<Sum, 3> velocity{Sum{before[0], after[0]}, Sum{before[1], after[1]}, Sum{before[2], after[2]}};
+    with_row(fluid, j, k,
+             [&](auto at) { row_rates(at, grid, velocity, 0.5, 1, grid.nx + 1, row_of(fluid.face_rate, row)); });
+  });
+}
+
+namespace {
+
+/// What a row of cells exchanges: volume per time through lower faces, and the weight of half a cell below and above a
+/// face over density and area.
+struct WorkRow {
+  const double *qx, *qy, *qz, *p, *rho;
+  double low, high;
+
+  WorkRow(const Fluid& fluid, int j, int k) {
+    const std::ptrdiff_t row = fluid.grid.at(0, j, k);
+    qx = fluid.face_rate[0].data() + row;
+    qy = fluid.face_rate[1].data() + row;
+    qz = fluid.face_rate[2].data() + row;
+    p = fluid.predicted_pressure.data() + row;
+    rho = fluid.density.data() + row;
+    low = 0.5 * fluid.setup.gravity * fluid.grid.dz[k - 1];
+    high = 0.5 * fluid.setup.gravity * fluid.grid.dz[k];
+  }
+  double flow(std::ptrdiff_t i, std::ptrdiff_t sy, std::ptrdiff_t sz) const {
+    return qx[i + 1] - qx[i] + qy[i + sy] - qy[i] + qz[i + sz] - qz[i];
+  }
+  double lifted(std::ptrdiff_t i, std::ptrdiff_t sz) const { return qz[i] * (low * rho[i - sz] + high * rho[i]); }
+};
+
+/// A row of one material that no solid touches. Returns the work against gravity per time, as do the next ones.
+double work_in_open_row(Fluid& fluid, double dt, int j, int k, Material& own) {
+  const Grid& grid = fluid.grid;
+  const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz;
+  const WorkRow at(fluid, j, k);
+  const double area = grid.dy[j] * grid.dz[k], *dx = grid.dx.data(), *m = own.mass.data() + row;
+  double *volume = fluid.sweep_volume.data() + row, *e = own.energy.data() + row, *held = own.volume.data() + row;
+  double work = 0;
+#pragma omp simd reduction(+ : work)
+  for (int i = 1; i <= grid.nx; ++i) {
+    const double change = dt * at.flow(i, sy, sz), later = dx[i] * area + change;
+    volume[i] = later;
+    e[i] -= m[i] > 0 ? at.p[i] * change : 0.0;
+    held[i] = m[i] > 0 ? later : 0.0;
+    work += at.lifted(i, sz);
+  }
+  return work;
+}
+
+/// Any row: first what its volumes become, then the work on the materials.
+double volumes_of_row(Fluid& fluid, double dt, int j, int k) {
+  const Grid& grid = fluid.grid;
+  const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz;
+  const WorkRow at(fluid, j, k);
+  const double *v0 = fluid.before.volume.data() + row, *swept = fluid.volume_change.data() + row;
+  double *volume = fluid.sweep_volume.data() + row, *rate = fluid.rate.data() + row;
+  const double over_dt = 1.0 / dt;
+  double work = 0;
+#pragma omp simd reduction(+ : work)
+  for (int i = 1; i <= grid.nx; ++i) {
+    const double flow = at.flow(i, sy, sz);
+    rate[i] = flow + swept[i] * over_dt;
+    volume[i] = v0[i] + (dt * flow + swept[i]);
+    work += at.lifted(i, sz);
+  }
+  return work;
+}
+
+void work_on_one(Fluid& fluid, double dt, std::ptrdiff_t row, Material& own) {
+  const double *m = own.mass.data() + row, *p = fluid.predicted_pressure.data() + row, *rate = fluid.rate.data() + row,
+               *volume = fluid.sweep_volume.data() + row;
+  double *e = own.energy.data() + row, *held = own.volume.data() + row;
+#pragma omp simd
+  for (int i = 1; i <= fluid.grid.nx; ++i) {
+    e[i] -= m[i] > 0 ? dt * p[i] * rate[i] : 0.0;
+    held[i] = m[i] > 0 ? volume[i] : 0.0;
+  }
+}
+
+void work_on_both(Fluid& fluid, std::ptrdiff_t row) {
+  for (std::ptrdiff_t c = row + 1; c <= row + fluid.grid.nx; ++c) {
+    const double change = fluid.sweep_volume[c] - fluid.before.volume[c];
+    Mixture mixture;
+    for (int m = 0; m < 2; ++m) {
+      mixture.mass[m] = fluid.material[m].mass[c];
+      mixture.energy[m] = fluid.material[m].energy[c];
+      mixture.volume[m] = fluid.material[m].volume[c];
+    }
+    const std::array<double, 2> share = volume_shares(fluid.setup.law, fluid.setup.pressure_floor, mixture, change);
+    for (int m = 0; m < 2; ++m) {
+      fluid.material[m].energy[c] -= fluid.predicted_pressure[c] * change * share[m];
+      fluid.material[m].volume[c] += change * share[m];
+    }
+  }
+}
+
+}  // namespace
 
 void work_and_volumes(Fluid& fluid, double dt) {
   const Grid& grid = fluid.grid;
-  const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
-  const double g = fluid.setup.gravity;
   const double lifted = row_sum(grid, 0, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
-    const double *qx = fluid.face_rate[0].data() + row, *qy = fluid.face_rate[1].data() + row, *qz = fluid.face_rate[2].data() + row;
-    const double *v0 = fluid.before.volume.data() + row, *swept = fluid.volume_change.data() + row;
-    const double *p = fluid.predicted_pressure.data() + row, *rho = fluid.density.data() + row;
-    double* __restrict volume = fluid.sweep_volume.data() + row;
-    double* __restrict rate = fluid.rate.data() + row;
-    const double low = 0.5 * g * grid.dz[k - 1], high = 0.5 * g * grid.dz[k], over_dt = 1.0 / dt;
-    double work = 0;
-    for (int i = 1; i <= grid.nx; ++i) {
-      const double flow = qx[i + 1] - qx[i] + qy[i + sy] - qy[i] + qz[i + sz] - qz[i];
-      rate[i] = flow + swept[i] * over_dt;
-      volume[i] = v0[i] + (dt * flow + swept[i]);
-      work += qz[i] * (low * rho[i - sz] + high * rho[i]);
-    }
-    if (k == grid.nz) {
-      for (int i = 1; i <= grid.nx; ++i) work += qz[i + sz] * (0.5 * g * grid.dz[k] * rho[i]);
-    }
     const int materials = fluid.row_materials[static_cast<std::size_t>(j + (grid.ny + 3) * k)];
-    if (materials != 3) {
-      Material& own = fluid.material[materials == 2 ? 1 : 0];
-      const double* m = own.mass.data() + row;
-      double* __restrict e = own.energy.data() + row;
-      double* __restrict held = own.volume.data() + row;
-      for (int i = 1; i <= grid.nx; ++i) {
-        e[i] -= m[i] > 0 ? dt * p[i] * rate[i] : 0.0;
-        held[i] = m[i] > 0 ? volume[i] : 0.0;
-      }
-      return work;
+    Material& own = fluid.material[materials == 2 ? 1 : 0];
+    double work = 0;
+    if (materials != 3 && untouched(fluid, j, k)) {
+      work = work_in_open_row(fluid, dt, j, k, own);
+    } else {
+      work = volumes_of_row(fluid, dt, j, k);
+      materials != 3 ? work_on_one(fluid, dt, row, own) : work_on_both(fluid, row);
     }
-    for (int i = 1; i <= grid.nx; ++i) {
-      const std::ptrdiff_t c = row + i;
-      const double change = volume[i] - v0[i];
-      Mixture mixture;
-      for (int m = 0; m < 2; ++m) {
-        mixture.mass[m] = fluid.material[m].mass[c];
-        mixture.energy[m] = fluid.material[m].energy[c];
-        mixture.volume[m] = fluid.material[m].volume[c];
-      }
-      const std::array<double, 2> share = volume_shares(fluid.setup.law, fluid.setup.pressure_floor, mixture, change);
-      for (int m = 0; m < 2; ++m) {
-        fluid.material[m].energy[c] -= p[i] * change * share[m];
-        fluid.material[m].volume[c] += change * share[m];
-      }
-    }
+    if (k < grid.nz) return work;
+    const WorkRow at(fluid, j, k);
+    for (int i = 1; i <= grid.nx; ++i) work += at.qz[i + grid.sz] * (at.high * at.rho[i]);
     return work;
   });
   fluid.account.gravity += dt * lifted;
 }
 
 void hold_cut_cells(Fluid& fluid) {
-  for (const std::ptrdiff_t c : fluid.held_cells) fluid.held[c] = fluid.row_held[static_cast<std::size_t>(c / fluid.grid.sy)] = 0;
+  for (const std::ptrdiff_t c : fluid.held_cells)
+    fluid.held[c] = fluid.row_held[static_cast<std::size_t>(c / fluid.grid.sy)] = 0;
   fluid.held_cells.clear();
   const auto hold = [&](std::ptrdiff_t c) {
     if (fluid.held[c]) return;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fluid_solver/phases.hpp"
+#include "fluid_solver/row_geometry.hpp"
 #include "fluid_solver/sweep.hpp"
 
 namespace polynya::fluid {
@@ -28,25 +29,39 @@ inline double limited(double a, double b) {
 struct EdgeRow {
   const Fluid& fluid;
   std::ptrdiff_t row, s, t1, t2;
-  int axis;
+  int axis, j, k;
   bool at_lower_end, at_upper_end;  ///< the edge touches the outermost ghosts: no node beyond to take a slope from
+
+  /// True if all nodes that the edges of this row look at are whole, but for ghosts at the ends of rows.
+  bool open() const {
+    const Grid& grid = fluid.grid;
+    if (axis == 0) return untouched(fluid, j, k);
+    const int place = axis == 1 ? j : k, last = axis == 1 ? grid.ny : grid.nz;
+    if (place < 2 || place + 1 > last) return false;
+    return axis == 1 ? untouched(fluid, j - 1, k) && untouched(fluid, j + 1, k)
+                     : untouched(fluid, j, k - 1) && untouched(fluid, j, k + 1);
+  }
 
   /// Momentum that the edges carry; with `kinetic` also the kinetic energy.
   template <bool kinetic>
   void momentum(int first, int last, double* __restrict mx, double* __restrict my, double* __restrict mz,
                 double* __restrict ke) const {
     const double* face_mass = fluid.face_mass[axis].data() + row;
-    const double* b = fluid.node_fraction.data() + row;
     const double* mass = fluid.node_mass.data() + row;
     const std::ptrdiff_t before = at_lower_end ? 0 : -s, beyond = at_upper_end ? s : 2 * s;
+    const bool all_whole = open();
+    const double* b = all_whole ? fluid.whole_nodes.data() + 1 : fluid.node_fraction.data() + row;
+    const std::ptrdiff_t step = all_whole && axis > 0 ? 0 : 1;  // whole rows are all the same
+    const std::ptrdiff_t b_before = step * before, b_other = step * s, b_beyond = step * beyond;
     const double *u = fluid.next_velocity[0].data() + row, *v = fluid.next_velocity[1].data() + row,
                  *w = fluid.next_velocity[2].data() + row;
+#pragma omp simd
     for (std::ptrdiff_t n = first; n <= last; ++n) {
       const double flux = dual_flux(face_mass, n, s, t1, t2);
       const bool forward = flux >= 0;
       // Both sides are read whatever the direction, so that the loop needs no branch.
-      const double near = std::min(b[n], b[n + s]), lower = std::min(near, b[n + before]),
-                   upper = std::min(near, b[n + beyond]);
+      const double near = std::min(b[n], b[n + b_other]), lower = std::min(near, b[n + b_before]),
+                   upper = std::min(near, b[n + b_beyond]);
       const bool smooth = (forward ? lower : upper) >= whole;
       const double donor_mass = forward ? mass[n] : mass[n + s];
       const double courant = std::abs(flux) / (donor_mass > 0 ? donor_mass : 1.0);
@@ -72,23 +87,35 @@ struct PassingNode {
   std::array<double, 3> own, donor;
 };
 
-std::vector<PassingNode> passing_nodes(const Fluid& fluid) {
+/// Mass that a node gives through its edges, kg.
+double given_mass(const Fluid& fluid, std::ptrdiff_t n) {
   const Grid& grid = fluid.grid;
-  std::vector<std::ptrdiff_t> candidates = fluid.before.nodes();
-  candidates.insert(candidates.end(), fluid.after.nodes().begin(), fluid.after.nodes().end());
-  std::vector<PassingNode> passing;
-  for (const std::ptrdiff_t n : candidates) {
-    double out = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::ptrdiff_t s = grid.stride(axis), t1 = grid.stride((axis + 1) % 3), t2 = grid.stride((axis + 2) % 3);
-      out += std::max(0.0, dual_flux(fluid.face_mass[axis].data(), n, s, t1, t2)) +
-             std::max(0.0, -dual_flux(fluid.face_mass[axis].data(), n - s, s, t1, t2));
-    }
-    if (out > 0.5 * fluid.node_mass[n]) {
-      const std::array<double, 3> own{fluid.next_velocity[0][n], fluid.next_velocity[1][n], fluid.next_velocity[2][n]};
-      passing.push_back({n, own, own});
-    }
+  double out = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::ptrdiff_t s = grid.stride(axis), t1 = grid.stride((axis + 1) % 3), t2 = grid.stride((axis + 2) % 3);
+    out += std::max(0.0, dual_flux(fluid.face_mass[axis].data(), n, s, t1, t2)) +
+           std::max(0.0, -dual_flux(fluid.face_mass[axis].data(), n - s, s, t1, t2));
   }
+  return out;
+}
+
+std::vector<PassingNode> passing_nodes(const Fluid& fluid) {
+  constexpr std::size_t together = 512;
+  const std::size_t first = fluid.before.nodes().size(), count = first + fluid.after.nodes().size();
+  std::vector<std::vector<PassingNode>> found((count + together - 1) / together);
+  compute::for_chunks(count, together, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      const std::ptrdiff_t n = c < first ? fluid.before.nodes()[c] : fluid.after.nodes()[c - first];
+      // Inside solids nothing flows.
+      if (fluid.before.node_fraction[n] == 0 && fluid.after.node_fraction[n] == 0) continue;
+      const double out = given_mass(fluid, n);
+      if (!(out > 0.5 * fluid.node_mass[n])) continue;
+      const std::array<double, 3> own{fluid.next_velocity[0][n], fluid.next_velocity[1][n], fluid.next_velocity[2][n]};
+      found[begin / together].push_back({n, own, own});
+    }
+  });
+  std::vector<PassingNode> passing;
+  for (const auto& some : found) passing.insert(passing.end(), some.begin(), some.end());
   // Most nodes are listed before and after; few pass.
   std::sort(passing.begin(), passing.end(), [](const PassingNode& a, const PassingNode& b) { return a.node < b.node; });
   const auto same = [](const PassingNode& a, const PassingNode& b) { return a.node == b.node; };
@@ -133,31 +160,35 @@ struct Carried {
   std::array<double*, 4> of{};
 };
 
-/// Rows of nodes in the order of their layers: what the edges towards higher y and z carry is kept for the next row and
-/// the next layer.
+/// Rows of nodes in a block, in the order of its layers: what the edges towards higher y and z carry is kept for the
+/// next row and the next layer.
 class March {
  public:
-  March(Fluid& fluid, int gases)
+  March(Fluid& fluid, int gases, const Block& block)
       : fluid_(fluid),
         grid_(fluid.grid),
         gases_(gases),
+        block_(block),
         width_(static_cast<std::size_t>(grid_.nx) + 3),
         storage_(scratch()) {
-    storage_.resize(4 * width_ * (static_cast<std::size_t>(grid_.ny) + 6));
+    const std::size_t rows = static_cast<std::size_t>(block.last_j - block.first_j + 1);
+    storage_.resize(4 * width_ * (rows + 4));
+    for (std::size_t place = 0; place < rows + 4; ++place) carried_.push_back(at(place));
   }
 
-  void run(int first, int last) {
-    for (int j = 1; j <= grid_.ny + 1; ++j) carry_z(j, first - 1, layer(j));
-    for (int k = first; k <= last; ++k) {
-      carry_y(0, k, slot(1));
-      for (int j = 1; j <= grid_.ny + 1; ++j) {
+  void run() {
+    for (int j = block_.first_j; j <= block_.last_j; ++j) carry_z(j, block_.first_k - 1, below(j));
+    for (int k = block_.first_k; k <= block_.last_k; ++k) {
+      Carried &x = carried_[0], &y0 = carried_[1], &y1 = carried_[2], &z1 = carried_[3];
+      carry_y(block_.first_j - 1, k, y0);
+      for (int j = block_.first_j; j <= block_.last_j; ++j) {
         const std::ptrdiff_t row = grid_.at(0, j, k);
-        const Carried x = slot(0), y0 = slot(1 + (j + 1) % 2), y1 = slot(1 + j % 2), z0 = layer(j), z1 = slot(3);
-        carry({fluid_, row, 1, grid_.sy, grid_.sz, 0, false, false}, 0, gas(j, k), x);
+        carry({fluid_, row, 1, grid_.sy, grid_.sz, 0, j, k, false, false}, 0, gas(j, k), x);
         carry_y(j, k, y1);
         carry_z(j, k, z1);
-        update(row, gas(j, k), x, y0, y1, z0, z1);
-        for (std::size_t n = 0; n < 4 * width_; ++n) z0.of[0][n] = z1.of[0][n];
+        update(row, gas(j, k), x, y0, y1, below(j), z1);
+        std::swap(y0, y1);
+        std::swap(below(j), z1);
       }
     }
   }
@@ -172,8 +203,8 @@ class March {
     double* start = storage_.data() + 4 * width_ * place;
     return {{start, start + width_, start + 2 * width_, start + 3 * width_}};
   }
-  Carried slot(int s) { return at(static_cast<std::size_t>(s)); }
-  Carried layer(int j) { return at(static_cast<std::size_t>(j) + 3); }
+  /// What comes through the edges from the layer below.
+  Carried& below(int j) { return carried_[static_cast<std::size_t>(j - block_.first_j) + 4]; }
   bool gas(int j, int k) const {
     return touches_gas(fluid_, gases_, std::clamp(j, 1, grid_.ny + 1), std::clamp(k, 1, grid_.nz + 1));
   }
@@ -183,11 +214,11 @@ class March {
             : edges.momentum<false>(first, grid_.nx + 1, out.of[0], out.of[1], out.of[2], out.of[3]);
   }
   void carry_y(int j, int k, const Carried& out) {
-    carry({fluid_, grid_.at(0, j, k), grid_.sy, 1, grid_.sz, 1, j == 0, j == grid_.ny + 1}, 1,
+    carry({fluid_, grid_.at(0, j, k), grid_.sy, 1, grid_.sz, 1, j, k, j == 0, j == grid_.ny + 1}, 1,
           gas(j, k) || gas(j + 1, k), out);
   }
   void carry_z(int j, int k, const Carried& out) {
-    carry({fluid_, grid_.at(0, j, k), grid_.sz, 1, grid_.sy, 2, k == 0, k == grid_.nz + 1}, 1,
+    carry({fluid_, grid_.at(0, j, k), grid_.sz, 1, grid_.sy, 2, j, k, k == 0, k == grid_.nz + 1}, 1,
           gas(j, k) || gas(j, k + 1), out);
   }
 
@@ -197,6 +228,7 @@ class March {
     const double *m0 = fluid_.material[0].mass.data() + row, *m1 = fluid_.material[1].mass.data() + row;
     const double* old_mass = fluid_.node_mass.data() + row;
     double* __restrict new_mass = fluid_.viscosity.data() + row;  // free until the next step
+#pragma omp simd
     for (std::ptrdiff_t n = 1; n <= grid_.nx + 1; ++n) {
       const auto pair = [&](std::ptrdiff_t c) { return (m0[c] + m1[c]) + (m0[c - 1] + m1[c - 1]); };
       new_mass[n] = 0.125 * ((pair(n) + pair(n - sy)) + (pair(n - sz) + pair(n - sy - sz)));
@@ -209,6 +241,7 @@ class March {
     double* __restrict un = fluid_.velocity[0].data() + row;
     double* __restrict vn = fluid_.velocity[1].data() + row;
     double* __restrict wn = fluid_.velocity[2].data() + row;
+#pragma omp simd
     for (int n = 1; n <= grid_.nx + 1; ++n) {
       const bool filled = new_mass[n] > 0;
       const double inverse = 1.0 / (filled ? new_mass[n] : 1.0);
@@ -217,10 +250,11 @@ class March {
       wn[n] = filled ? inverse * (old_mass[n] * w[n] + gained(2, n)) : w[n];
     }
     if (!kinetic) return;
-    double* __restrict loss = fluid_.force[0].data() + row;  // free until the next step
+    double* __restrict loss = fluid_.kinetic_loss.data() + row;
     const auto square = [row](const std::array<std::vector<double>, 3>& u, std::ptrdiff_t n) {
       return u[0][row + n] * u[0][row + n] + u[1][row + n] * u[1][row + n] + u[2][row + n] * u[2][row + n];
     };
+#pragma omp simd
     for (int n = 1; n <= grid_.nx + 1; ++n) {
       const double lost =
           0.5 * (old_mass[n] * square(fluid_.next_velocity, n) - new_mass[n] * square(fluid_.velocity, n)) +
@@ -233,8 +267,10 @@ class March {
   Fluid& fluid_;
   const Grid& grid_;
   int gases_;
+  Block block_;
   std::size_t width_;
   std::vector<double>& storage_;
+  std::vector<Carried> carried_;  ///< along x, y before, y after, z after, and by row from the layer below
 };
 
 /// Gives cells the kinetic energy that mixing of momentum has cost at their nodes, by mass, as far as they hold gas:
@@ -248,8 +284,9 @@ double heat_gas(Fluid& fluid, int gases) {
     for (int m = 0; m < 2; ++m) {
       if (!(heated >> m & 1)) continue;
       const std::ptrdiff_t row = grid.at(0, j, k);
-      const double *loss = fluid.force[0].data() + row, *mass = fluid.material[m].mass.data() + row;
+      const double *loss = fluid.kinetic_loss.data() + row, *mass = fluid.material[m].mass.data() + row;
       double* __restrict energy = fluid.material[m].energy.data() + row;
+#pragma omp simd reduction(+ : given)
       for (std::ptrdiff_t i = 1; i <= grid.nx; ++i) {
         const auto four = [loss, sy, sz](std::ptrdiff_t n) {
           return (loss[n] + loss[n + sy]) + (loss[n + sz] + loss[n + sy + sz]);
@@ -268,13 +305,8 @@ double heat_gas(Fluid& fluid, int gases) {
 void remap_momentum(Fluid& fluid) {
   std::vector<PassingNode> passing = passing_nodes(fluid);
   iterate_donors(fluid, passing);
-  const Grid& grid = fluid.grid;
   const int gases = gases_of(fluid.setup);
-  const std::size_t layers = static_cast<std::size_t>(grid.nz) + 1;
-  compute::for_chunks(layers, std::max(planes_per_chunk(grid.sz), layers / 16),
-                      [&](std::size_t begin, std::size_t end) {
-                        March(fluid, gases).run(static_cast<int>(begin) + 1, static_cast<int>(end));
-                      });
+  for_blocks(fluid.grid, 1, [&](const Block& block) { March(fluid, gases, block).run(); });
   // The rows above took the donor velocity of passing nodes for their own.
   for (const PassingNode& p : passing) {
     const double mass = fluid.viscosity[p.node];

@@ -73,18 +73,26 @@ double speed_inside(const WallsAround& around, int axis) {
   return 0;
 }
 
-/// True if all cells of the grid on one side of the node hold no fluid, and some on the other side do.
-bool solid_on_one_side(const Fluid& fluid, std::ptrdiff_t node, int axis) {
+/// By axis: true if all cells of the grid on one side of the node hold no fluid, and some on the other side do.
+std::array<bool, 3> solid_on_one_side(const Fluid& fluid, std::ptrdiff_t node) {
   const Grid& grid = fluid.grid;
-  int cells[2] = {0, 0}, filled[2] = {0, 0};
+  std::array<std::array<int, 2>, 3> cells{}, filled{};
+  int solid = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const std::ptrdiff_t c = node - (corner & 1) - (corner & 2 ? grid.sy : 0) - (corner & 4 ? grid.sz : 0);
-    if (!grid.inside(c)) continue;
-    const int side = corner >> axis & 1;
-    ++cells[side];
-    filled[side] += fluid.after.volume[c] > 0;
+    const bool inside = grid.inside(c), holds = inside && fluid.after.volume[c] > 0;
+    solid += inside && !holds;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int side = corner >> axis & 1;
+      cells[axis][side] += inside;
+      filled[axis][side] += holds;
+    }
   }
-  return cells[0] > 0 && cells[1] > 0 && (filled[0] == 0) != (filled[1] == 0);
+  std::array<bool, 3> flat{};
+  if (solid == 0) return flat;  // most nodes: no cell around is full of solid
+  for (int axis = 0; axis < 3; ++axis)
+    flat[axis] = cells[axis][0] > 0 && cells[axis][1] > 0 && (filled[axis][0] == 0) != (filled[axis][1] == 0);
+  return flat;
 }
 
 /// The piece of wall around the node with the largest area, and its body; no wall inside solid.
@@ -123,39 +131,55 @@ std::optional<std::array<double, 3>> mean_of_neighbours(const Fluid& fluid, std:
   return sum;
 }
 
+struct Change {
+  std::ptrdiff_t node;
+  std::array<double, 3> velocity;
+  Receiver receiver;
+};
+
+/// What has to change at a node, if anything.
+std::optional<Change> change_of(const Fluid& fluid, std::ptrdiff_t n) {
+  const bool hidden = fluid.after.node_fraction[n] < covered;
+  const std::array<bool, 3> flat = solid_on_one_side(fluid, n);
+  if (!hidden && !flat[0] && !flat[1] && !flat[2]) return {};
+  const WallsAround around = walls_around(fluid, n);
+  Change change{n, {fluid.velocity[0][n], fluid.velocity[1][n], fluid.velocity[2][n]}, nearest_wall(around)};
+  bool changed = hidden;
+  if (hidden) {
+    const auto mean = mean_of_neighbours(fluid, n);
+    for (int d = 0; d < 3; ++d) change.velocity[d] = mean ? (*mean)[d] : speed_inside(around, d);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!flat[axis]) continue;
+    if (const auto wall = mean_wall(around); wall && std::abs(wall->normal[axis]) > nearly_flat) {
+      follow_wall(*wall, axis, change.velocity);
+      changed = true;
+    }
+  }
+  return changed ? std::optional(change) : std::nullopt;
+}
+
+/// In the order of the nodes, whatever the number of threads.
+std::vector<Change> find_changes(const Fluid& fluid) {
+  constexpr std::size_t together = 512;
+  const std::vector<std::ptrdiff_t>& nodes = fluid.after.nodes();
+  std::vector<std::vector<Change>> found((nodes.size() + together - 1) / together);
+  compute::for_chunks(nodes.size(), together, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      if (const auto change = change_of(fluid, nodes[n])) found[begin / together].push_back(*change);
+  });
+  std::vector<Change> all;
+  for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
 }  // namespace
 
 void fix_covered_nodes(Fluid& fluid) {
-  struct Change {
-    std::ptrdiff_t node;
-    std::array<double, 3> velocity;
-    Receiver receiver;
-  };
-  std::vector<Change> changes;
   fluid.wall_impulse.assign(fluid.after.walls.size(), {});
   for (std::size_t w = 0; w < fluid.after.walls.size(); ++w)
     fluid.label[fluid.after.walls[w].cell] = static_cast<std::int32_t>(w);
-  for (const std::ptrdiff_t n : fluid.after.nodes()) {
-    const bool hidden = fluid.after.node_fraction[n] < covered;
-    std::array<bool, 3> flat{};
-    for (int axis = 0; axis < 3; ++axis) flat[axis] = solid_on_one_side(fluid, n, axis);
-    if (!hidden && !flat[0] && !flat[1] && !flat[2]) continue;
-    const WallsAround around = walls_around(fluid, n);
-    Change change{n, {fluid.velocity[0][n], fluid.velocity[1][n], fluid.velocity[2][n]}, nearest_wall(around)};
-    bool changed = hidden;
-    if (hidden) {
-      const auto mean = mean_of_neighbours(fluid, n);
-      for (int d = 0; d < 3; ++d) change.velocity[d] = mean ? (*mean)[d] : speed_inside(around, d);
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!flat[axis]) continue;
-      if (const auto wall = mean_wall(around); wall && std::abs(wall->normal[axis]) > nearly_flat) {
-        follow_wall(*wall, axis, change.velocity);
-        changed = true;
-      }
-    }
-    if (changed) changes.push_back(change);
-  }
+  const std::vector<Change> changes = find_changes(fluid);
   for (const WallPiece& wall : fluid.after.walls) fluid.label[wall.cell] = -1;
   for (const auto& [n, velocity, receiver] : changes) {
     const double mass = fluid.node_mass[n];

@@ -47,24 +47,24 @@ void predict_pressure(Fluid& fluid, double dt);
 /// Coefficient of the shock viscosity that is linear in the closing speed beside solids, at the present time.
 double linear_viscosity(const Fluid& fluid);
 
+/// acceleration.cpp: new velocities and masses of nodes. Returns the kinetic energy of the new velocities, J.
+double accelerate_nodes(Fluid& fluid, double dt);
+
 /// lagrange_step.cpp
 void face_rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity, std::array<std::vector<double>, 3>& rate);
-/// Returns the kinetic energy of the new velocities, J.
-double accelerate_nodes(Fluid& fluid, double dt);
+/// The same for the faces of the outer boundary alone, at the velocities of the beginning of the step.
+void boundary_face_rates(Fluid& fluid);
 void work_and_volumes(Fluid& fluid, double dt);
 /// Lists the cells that solids cut and members of groups, and what they will give in the remap.
 void hold_cut_cells(Fluid& fluid);
 /// wall_account.cpp
 void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls, const VolumeCorrection& correction);
 
-/// Replaces the face rates by the means of those at the two ends of the acceleration.
+/// Face rates of the mean of the velocities at the two ends of the acceleration.
 void mean_face_rates(Fluid& fluid);
 
 /// fluid.cpp
 void update_node_mass(Fluid& fluid);
-
-/// hourglass.cpp
-void hourglass_force(Fluid& fluid);
 
 /// remap.cpp, momentum_remap.cpp, node_fix.cpp
 void remap_cells(Fluid& fluid, double dt);

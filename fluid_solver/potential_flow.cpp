@@ -5,6 +5,7 @@
 // moving body is Bernoulli's, rho (U.u - u^2/2), added to what is there.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "fluid_solver/phases.hpp"
 
@@ -28,24 +29,24 @@ class Projection {
   /// Conjugate gradients on cells and groups; returns the number of iterations.
   int run() {
     const std::size_t size = f_.grid.size;
-    Field residual(size, 0.0), impulse(size, 0.0), z(size, 0.0), direction(size, 0.0), image(size, 0.0);
+    Field residual(size, 0.0), impulse(size, 0.0), direction(size, 0.0), image(size, 0.0);
     initial_rates(residual);
-    precondition(residual, z);
-    direction = z;
-    double rho = dot(residual, z);
+    auto [rho, square] = norms(residual);
     const double goal = tolerance * tolerance * std::max(wall_rates(), 1e-300);
+    double turn = 0;
     int iteration = 0;
-    for (; iteration < most_iterations && rho > 0 && dot(residual, residual) > goal; ++iteration) {
-      apply(direction, image);
-      const double step = rho / dot(direction, image);
-      for_all([&](std::size_t c) {
-        impulse[c] += step * direction[c];
-        residual[c] -= step * image[c];
+    for (; iteration < most_iterations && rho > 0 && square > goal; ++iteration) {
+      turn_towards(residual, turn, direction);
+      const double step = rho / apply(direction, image);
+      double *to = impulse.data(), *left = residual.data();
+      const double *d = direction.data(), *q = image.data();
+      for_all([=](std::size_t c) {
+        to[c] += step * d[c];
+        left[c] -= step * q[c];
       });
-      precondition(residual, z);
-      const double next = dot(residual, z);
-      for_all([&](std::size_t c) { direction[c] = z[c] + next / rho * direction[c]; });
-      rho = next;
+      const double before = rho;
+      std::tie(rho, square) = norms(residual);
+      turn = rho / before;
     }
     if (iteration == most_iterations)
       throw FluidError("the flow that the run starts with was not found in " + std::to_string(iteration) +
@@ -83,7 +84,7 @@ class Projection {
 
   void find_diagonal() {
     const Grid& grid = f_.grid;
-    diagonal_.assign(grid.size, 0.0);
+    Field diagonal(grid.size, 0.0);
     const Field &b = f_.node_fraction, &m = f_.node_mass;
     for_rows(grid, 0, [&](int j, int k) {
       for (std::ptrdiff_t c = grid.at(1, j, k), end = c + grid.nx; c < end; ++c) {
@@ -96,10 +97,13 @@ class Projection {
             sum += b[n] * b[n] / m[n] * a * a;
           }
         }
-        diagonal_[c] = sum;
+        diagonal[c] = sum;
       }
     });
-    gather_groups(diagonal_);
+    gather_groups(diagonal);
+    inverse_.assign(grid.size, 0.0);
+    for (std::size_t c = 0; c < inverse_.size(); ++c)
+      inverse_[c] = unknown_[c] > 0 && diagonal[c] > 0 ? 1.0 / diagonal[c] : 0.0;
   }
 
   /// Moves the sum over each group to its root.
@@ -124,11 +128,14 @@ class Projection {
 
   void sum_rates(Field& out, double sign) const {
     const Grid& grid = f_.grid;
-    for_rows(grid, 0, [&](int j, int k) {
-      const Field &qx = f_.face_rate[0], &qy = f_.face_rate[1], &qz = f_.face_rate[2];
-      for (std::ptrdiff_t c = grid.at(1, j, k), end = c + grid.nx; c < end; ++c) {
-        out[c] = sign * (qx[c + 1] - qx[c] + qy[c + grid.sy] - qy[c] + qz[c + grid.sz] - qz[c]);
-      }
+    const double *qx = f_.face_rate[0].data(), *qy = f_.face_rate[1].data(), *qz = f_.face_rate[2].data();
+    const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
+    for_rows(grid, 0, [&, qx, qy, qz, sy, sz](int j, int k) {
+      double* to = out.data();
+      const std::ptrdiff_t begin = grid.at(1, j, k), end = begin + grid.nx;
+#pragma omp simd
+      for (std::ptrdiff_t c = begin; c < end; ++c)
+        to[c] = sign * (qx[c + 1] - qx[c] + qy[c + sy] - qy[c] + qz[c + sz] - qz[c]);
     });
   }
 
@@ -157,57 +164,100 @@ class Projection {
     return sum;
   }
 
+  /// What the impulses on both sides of the four faces around a node push it, across the axis of stride s.
+  static double push(const double* a, const double* p, std::ptrdiff_t n, std::ptrdiff_t s, std::ptrdiff_t t1,
+                     std::ptrdiff_t t2) {
+    return (a[n] * (p[n - s] - p[n]) + a[n - t1] * (p[n - t1 - s] - p[n - t1])) +
+           (a[n - t2] * (p[n - t2 - s] - p[n - t2]) + a[n - t1 - t2] * (p[n - t1 - t2 - s] - p[n - t1 - t2]));
+  }
+
   /// Velocity that an impulse per area in the cells gives to the nodes.
   void give_kick(Field& impulse) {
     const Grid& grid = f_.grid;
     copy_to_members(impulse);
     const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
-    const double* p = impulse.data();
-    for_rows(grid, 1, [&](int j, int k) {
-      const std::ptrdiff_t row = grid.at(0, j, k);
-      const double *ax = f_.face_coefficient[0].data(), *ay = f_.face_coefficient[1].data(),
-                   *az = f_.face_coefficient[2].data();
-      for (std::ptrdiff_t n = row + 1; n <= row + grid.nx + 1; ++n) {
-        const auto sum = [&](const double* a, std::ptrdiff_t s, std::ptrdiff_t t1, std::ptrdiff_t t2) {
-          const auto push = [&](std::ptrdiff_t face) { return a[face] * (p[face - s] - p[face]); };
-          return (push(n) + push(n - t1)) + (push(n - t2) + push(n - t1 - t2));
-        };
-        const double scale = f_.node_mass[n] > 0 ? f_.node_fraction[n] / f_.node_mass[n] : 0.0;
-        kick_[0][n] = scale * sum(ax, 1, sy, sz);
-        kick_[1][n] = scale * sum(ay, sy, 1, sz);
-        kick_[2][n] = scale * sum(az, sz, 1, sy);
+    const double *p = impulse.data(), *mass = f_.node_mass.data(), *fraction = f_.node_fraction.data();
+    const double *ax = f_.face_coefficient[0].data(), *ay = f_.face_coefficient[1].data(),
+                 *az = f_.face_coefficient[2].data();
+    double *u = kick_[0].data(), *v = kick_[1].data(), *w = kick_[2].data();
+    for_rows(grid, 1, [=](int j, int k) {
+      const std::ptrdiff_t begin = grid.at(1, j, k), end = begin + grid.nx + 1;
+#pragma omp simd
+      for (std::ptrdiff_t n = begin; n < end; ++n) {
+        const double m = mass[n], free = fraction[n], scale = m > 0 ? free / (m > 0 ? m : 1.0) : 0.0;
+        u[n] = scale * push(ax, p, n, 1, sy, sz);
+        v[n] = scale * push(ay, p, n, sy, 1, sz);
+        w[n] = scale * push(az, p, n, sz, 1, sy);
       }
     });
   }
 
-  void apply(Field& direction, Field& image) {
+  /// Returns the product of the direction and its image.
+  double apply(Field& direction, Field& image) {
     give_kick(direction);
     face_rates(f_, kick_, f_.face_rate);
     sum_rates(image, -1.0);
     gather_groups(image);
-    for_all([&](std::size_t c) {
-      image[c] *= unknown_[c];
-      direction[c] *= unknown_[c];  // members were copies
-    });
+    const double* unknown = unknown_.data();
+    double *d = direction.data(), *q = image.data();
+    return sums<1>([=](std::size_t begin, std::size_t end) {
+      double sum = 0;
+#pragma omp simd reduction(+ : sum)
+      for (std::size_t c = begin; c < end; ++c) {
+        q[c] *= unknown[c];
+        d[c] *= unknown[c];  // members were copies
+        sum += d[c] * q[c];
+      }
+      return std::array<double, 1>{sum};
+    })[0];
   }
 
-  void precondition(const Field& residual, Field& z) const {
-    for_all([&](std::size_t c) { z[c] = unknown_[c] > 0 && diagonal_[c] > 0 ? residual[c] / diagonal_[c] : 0.0; });
+  void turn_towards(const Field& residual, double turn, Field& direction) const {
+    const double *r = residual.data(), *inverse = inverse_.data();
+    double* d = direction.data();
+    for_all([=](std::size_t c) { d[c] = r[c] * inverse[c] + turn * d[c]; });
   }
+
+  /// Square of the residual in the norm of the preconditioner, and plain.
+  std::tuple<double, double> norms(const Field& residual) const {
+    const double *r = residual.data(), *inverse = inverse_.data();
+    const auto sum = sums<2>([=](std::size_t begin, std::size_t end) {
+      double scaled = 0, plain = 0;
+#pragma omp simd reduction(+ : scaled, plain)
+      for (std::size_t c = begin; c < end; ++c) {
+        scaled += r[c] * r[c] * inverse[c];
+        plain += r[c] * r[c];
+      }
+      return std::array<double, 2>{scaled, plain};
+    });
+    return {sum[0], sum[1]};
+  }
+
+  static constexpr std::size_t chunk = 1 << 14;
 
   template <class Body>
   void for_all(Body&& body) const {
-    compute::for_chunks(f_.grid.size, 1 << 14, [&](std::size_t begin, std::size_t end) {
+    compute::for_chunks(f_.grid.size, chunk, [&](std::size_t begin, std::size_t end) {
+#pragma omp simd
       for (std::size_t c = begin; c < end; ++c) body(c);
     });
   }
 
-  double dot(const Field& a, const Field& b) const {
-    return compute::ordered_sum(a.size(), 1 << 14, [&](std::size_t c) { return a[c] * b[c]; });
+  /// Sums of what term(begin, end) returns for chunks of the grid, added in their order.
+  template <std::size_t count, class Term>
+  std::array<double, count> sums(Term&& term) const {
+    std::vector<std::array<double, count>> partial((f_.grid.size + chunk - 1) / chunk);
+    compute::for_chunks(f_.grid.size, chunk,
+                        [&](std::size_t begin, std::size_t end) { partial[begin / chunk] = term(begin, end); });
+    std::array<double, count> total{};
+    for (const auto& own : partial) {
+      for (std::size_t s = 0; s < count; ++s) total[s] += own[s];
+    }
+    return total;
   }
 
   Fluid& f_;
-  Field unknown_, diagonal_;
+  Field unknown_, inverse_;  ///< inverse: of the diagonal, 0 where there is no unknown
   std::array<Field, 3>& kick_;
 };
 

@@ -35,11 +35,15 @@ void remap_cells(Fluid& fluid, double dt) {
   SharedCells shared;
   const Grid& grid = fluid.grid;
   const std::array<int, 3> cells{grid.nx, grid.ny, grid.nz};
+  const auto moves = [&](int axis) { return cells[axis] > 1 || !encloses(fluid.setup.boundary, axis); };
   for (int turn = 0; turn < 3; ++turn) {
-    const int axis = fluid.steps % 2 == 0 ? turn : 2 - turn;
-    if (cells[axis] == 1 && encloses(fluid.setup.boundary, axis)) continue;  // nothing moves
-    find_shared_cells(fluid, shared);
-    sweep(fluid, axis, dt, shared);
+    const int axis = fluid.steps % 2 == 0 ? turn : 2 - turn, next = fluid.steps % 2 == 0 ? turn + 1 : 1 - turn;
+    if (axis < 2 && next >= 0 && next < 2 && moves(axis) && moves(next)) {
+      sweep_layers(fluid, axis, next, dt, shared);
+      ++turn;
+    } else if (moves(axis)) {
+      sweep(fluid, axis, dt, shared);
+    }
   }
   forget_shared_cells(fluid);
 }

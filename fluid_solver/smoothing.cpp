@@ -4,6 +4,7 @@
 // not feel it. Faces whose surroundings are cut are left out. (After Rhie & Chow 1983.)
 #include <algorithm>
 
+#include "fluid_solver/row_geometry.hpp"
 #include "fluid_solver/sweep.hpp"
 
 namespace polynya::fluid {
@@ -52,10 +53,19 @@ void FaceSmoothing::faces(const Fluid& fluid, double dt, int axis, int j, int k,
                             : axis == 1 ? grid.dz[k]
                                         : grid.dy[j],
                area_x = axis == 0 ? grid.dy[j] * grid.dz[k] : 0.0;
-  for (std::ptrdiff_t i = axis == 0 ? 2 : 1; i <= grid.nx; ++i) {
+  const double* dx = grid.dx.data();
+  const auto smooth = [=](std::ptrdiff_t i) {
+    const double rate = smoothing * dt / std::max(sound[i], 1.0);
+    return rate * (area_x + area_by_dx * dx[i]) * ((p[i] - p[i - s]) - (mean[i] - before[i]));
+  };
+  const std::ptrdiff_t first = axis == 0 ? 2 : 1;
+  if (untouched(fluid, j, k)) {
+    for (std::ptrdiff_t i = first; i <= grid.nx; ++i) mass[i] -= smooth(i);
+    return;
+  }
+  for (std::ptrdiff_t i = first; i <= grid.nx; ++i) {
     const double whole = std::min(std::min(b[i], b[i + t1]), std::min(b[i + t2], b[i + t1 + t2]));
-    const double rate = whole >= 1.0 ? smoothing * dt / std::max(sound[i], 1.0) : 0.0;
-    mass[i] -= rate * (area_x + area_by_dx * grid.dx[i]) * ((p[i] - p[i - s]) - (mean[i] - before[i]));
+    mass[i] -= whole >= 1.0 ? smooth(i) : 0.0;
   }
 }
 

@@ -38,16 +38,12 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
   double kinetic_before_remap = 0, taken_from_nodes = 0;
   {
     const auto lap = fluid.watch.lap("lagrange");
-    face_rates(fluid, fluid.velocity, fluid.face_rate);
     predict_pressure(fluid, dt);
     predict_group_pressure(fluid, dt);
     {
       const auto inner = fluid.watch.lap("boundaries");
+      boundary_face_rates(fluid);
       set_boundary_pressure(fluid);
-    }
-    {
-      const auto inner = fluid.watch.lap("hourglass");
-      hourglass_force(fluid);
     }
     kinetic_before_remap = accelerate_nodes(fluid, dt);
     mean_face_rates(fluid);

@@ -108,7 +108,7 @@ class Pencil {
   void run_row(int j, int k) {
     CellRow& row = rows_[0];
     FaceRow& face = faces_[0];
-    load(row, j, k);
+    load(row, {j, k});
     const int n = grid_.nx;
     for (double* array :
          {row.inverse, row.mass[0], row.mass[1], row.energy[0], row.energy[1], row.plain[0], row.plain[1]}) {
@@ -137,48 +137,53 @@ class Pencil {
     update(row, at, face, face, 1);
   }
 
-  /// Along y or z: all rows of a line of rows, `other` the index of the third axis (k along y, j along z).
-  void run_rows(int other) {
-    const int n = axis_ == 1 ? grid_.ny : grid_.nz;
+  /// Along y or z: all rows of a line of rows, `other` the index of the third axis (k along y, j along z): first
+  /// `begin`, then `face` for each row of faces.
+  void begin(int other) {
+    for (int r = 0; r <= std::min(faces_along() - 1, 2); ++r) load(at_row(r), place(r, other));
+  }
+  int faces_along() const { return (axis_ == 1 ? grid_.ny : grid_.nz) + 1; }
+  void face(int f, int other) {
+    const int n = faces_along() - 1;
+    const auto [j, k] = place(f, other);
+    if (f > 1 && f < n + 1) load(at_row(f + 1), place(f + 1, other));
+    const bool lowest = f == 1, highest = f == n + 1;
+    CellRow &b = at_row(f - 1), &c = at_row(f);
+    CellRow &a = f <= 2 ? b : at_row(f - 2), &d = lowest || f >= n ? c : at_row(f + 1);
+    FaceRow &face = faces_[f % 2], &before = faces_[(f + 1) % 2];
+    const std::ptrdiff_t at = grid_.at(0, j, k);
+    const double* rate = fluid_.face_rate[axis_].data() + at;
+    for (int i = 1; i <= grid_.nx; ++i) face.swept[i] = dt_ * rate[i];
+    const int materials = b.materials | c.materials;
+    const bool general = a.general || b.general || c.general || d.general;
     const std::vector<double>& widths = axis_ == 1 ? grid_.dy : grid_.dz;
-    const auto place = [&](int r) { return axis_ == 1 ? std::array<int, 2>{r, other} : std::array<int, 2>{other, r}; };
-    for (int r = 0; r <= std::min(n, 2); ++r) load(at_row(r), place(r)[0], place(r)[1]);
-    for (int f = 1; f <= n + 1; ++f) {
-      const auto [j, k] = place(f);
-      if (f > 1 && f + 1 <= n + 1) load(at_row(f + 1), place(f + 1)[0], place(f + 1)[1]);
-      const bool lowest = f == 1, highest = f == n + 1;
-      CellRow &b = at_row(f - 1), &c = at_row(f);
-      CellRow &a = f <= 2 ? b : at_row(f - 2), &d = lowest || f >= n ? c : at_row(f + 1);
-      FaceRow &face = faces_[f % 2], &before = faces_[(f + 1) % 2];
-      const std::ptrdiff_t at = grid_.at(0, j, k);
-      const double* rate = fluid_.face_rate[axis_].data() + at;
-      for (int i = 1; i <= grid_.nx; ++i) face.swept[i] = dt_ * rate[i];
-      const int materials = b.materials | c.materials;
-      const bool general = a.general || b.general || c.general || d.general;
-      const Slopes part{lowest ? 0.5 : slope_part(widths, f - 1), highest ? 0.5 : slope_part(widths, f)};
-      for (int m = 0; m < 2; ++m) {
-        if (!(materials >> m & 1)) continue;
-        const auto line = [&](std::array<const double*, 2> CellRow::*of) {
-          return Line{(a.*of)[m], (b.*of)[m], (c.*of)[m], (d.*of)[m]};
-        };
-        carry_material(general, 1, grid_.nx, face, m, b.inverse, c.inverse, line(&CellRow::seen_mass),
-                       line(&CellRow::seen_energy), line(&CellRow::seen_plain), [part](int) { return part; });
-        if (!general) continue;
-        for (int i = 1; i <= grid_.nx; ++i)
-          face.volume[m][i] = face.swept[i] * (face.swept[i] > 0 ? b.seen_fraction[m][i] : c.seen_fraction[m][i]);
-      }
-      if (materials == 3) {
-        for (int i = 1; i <= grid_.nx; ++i) shared_donor(face, i, at + i, grid_.stride(axis_));
-      }
-      finish_faces(face, materials, j, k);
-      if (!lowest) update(b, at - grid_.stride(axis_), before, face, 0);
+    const Slopes part{lowest ? 0.5 : slope_part(widths, f - 1), highest ? 0.5 : slope_part(widths, f)};
+    for (int m = 0; m < 2; ++m) {
+      if (!(materials >> m & 1)) continue;
+      const auto line = [&](std::array<const double*, 2> CellRow::*of) {
+        return Line{(a.*of)[m], (b.*of)[m], (c.*of)[m], (d.*of)[m]};
+      };
+      carry_material(general, 1, grid_.nx, face, m, b.inverse, c.inverse, line(&CellRow::seen_mass),
+                     line(&CellRow::seen_energy), line(&CellRow::seen_plain), [part](int) { return part; });
+      if (!general) continue;
+      for (int i = 1; i <= grid_.nx; ++i)
+        face.volume[m][i] = face.swept[i] * (face.swept[i] > 0 ? b.seen_fraction[m][i] : c.seen_fraction[m][i]);
     }
+    if (materials == 3) {
+      for (int i = 1; i <= grid_.nx; ++i) shared_donor(face, i, at + i, grid_.stride(axis_));
+    }
+    finish_faces(face, materials, j, k);
+    if (!lowest) update(b, at - grid_.stride(axis_), before, face, 0);
   }
 
  private:
   CellRow& at_row(int r) { return rows_[static_cast<std::size_t>(r % 4)]; }
+  std::array<int, 2> place(int r, int other) const {
+    return axis_ == 1 ? std::array<int, 2>{r, other} : std::array<int, 2>{other, r};
+  }
 
-  void load(CellRow& row, int j, int k) {
+  void load(CellRow& row, std::array<int, 2> place) {
+    const auto [j, k] = place;
     const std::ptrdiff_t at = grid_.at(0, j, k);
     const int n = grid_.nx;
     const bool ghost = j < 1 || k < 1 || j > grid_.ny || k > grid_.nz;
@@ -218,7 +223,6 @@ class Pencil {
       }
     }
   }
-  void load(CellRow& row, std::array<int, 2> place) { load(row, place[0], place[1]); }
 
   template <class SlopeOf>
   void carry_material(bool general, int first, int last, FaceRow& face, int m, const double* below, const double* above,
@@ -319,23 +323,74 @@ class Pencil {
   FaceSmoothing smooth_;
 };
 
+/// One layer, along x or y.
+void sweep_layer(Pencil& pencil, const Grid& grid, int axis, int k) {
+  if (axis == 0) {
+    for (int j = 1; j <= grid.ny; ++j) pencil.run_row(j, k);
+    return;
+  }
+  pencil.begin(k);
+  for (int f = 1; f <= pencil.faces_along(); ++f) pencil.face(f, k);
+}
+
+/// True for layers no cell of which can be shared while this remap lasts.
+std::vector<char> clear_layers(const Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  std::vector<char> clear(static_cast<std::size_t>(grid.nz) + 1, 1);
+  for (int k = 1; k <= grid.nz; ++k) {
+    for (int j = 1; j <= grid.ny && clear[k]; ++j) clear[k] = materials_around(fluid, j, k) != 3;
+  }
+  return clear;
+}
+
 }  // namespace
+
+void sweep_layers(Fluid& fluid, int first, int second, double dt, SharedCells& shared) {
+  const Grid& grid = fluid.grid;
+  const std::size_t layers = static_cast<std::size_t>(grid.nz);
+  const std::vector<char> clear = clear_layers(fluid);
+  find_shared_cells(fluid, shared);
+  compute::for_uneven_chunks(layers, planes_per_chunk(grid.sz), [&](std::size_t begin, std::size_t end) {
+    Pencil one(fluid, first, dt, shared), other(fluid, second, dt, shared);
+    for (int k = static_cast<int>(begin) + 1; k <= static_cast<int>(end); ++k) {
+      sweep_layer(one, grid, first, k);
+      if (clear[k]) sweep_layer(other, grid, second, k);
+    }
+  });
+  find_shared_cells(fluid, shared);
+  compute::for_uneven_chunks(layers, planes_per_chunk(grid.sz), [&](std::size_t begin, std::size_t end) {
+    for (int k = static_cast<int>(begin) + 1; k <= static_cast<int>(end); ++k) {
+      if (clear[k]) continue;
+      Pencil pencil(fluid, second, dt, shared);
+      sweep_layer(pencil, grid, second, k);
+    }
+  });
+}
 
 void sweep(Fluid& fluid, int axis, double dt, SharedCells& shared) {
   const Grid& grid = fluid.grid;
-  const std::size_t planes = static_cast<std::size_t>(axis == 2 ? grid.ny : grid.nz);
-  compute::for_chunks(planes, planes_per_chunk(axis == 2 ? grid.sy * grid.nz : grid.sz),
-                      [&](std::size_t begin, std::size_t end) {
-                        Pencil pencil(fluid, axis, dt, shared);
-                        for (std::size_t plane = begin; plane < end; ++plane) {
-                          const int other = static_cast<int>(plane) + 1;
-                          if (axis != 0) {
-                            pencil.run_rows(other);
-                            continue;
-                          }
-                          for (int j = 1; j <= grid.ny; ++j) pencil.run_row(j, other);
-                        }
-                      });
+  find_shared_cells(fluid, shared);
+  if (axis < 2) {
+    compute::for_uneven_chunks(static_cast<std::size_t>(grid.nz), planes_per_chunk(grid.sz),
+                               [&](std::size_t begin, std::size_t end) {
+                                 Pencil pencil(fluid, axis, dt, shared);
+                                 for (std::size_t k = begin; k < end; ++k)
+                                   sweep_layer(pencil, grid, axis, static_cast<int>(k) + 1);
+                               });
+    return;
+  }
+  // Several rows side by side: then what is read from a layer lies together.
+  constexpr std::size_t together = 4;
+  compute::for_uneven_chunks(static_cast<std::size_t>(grid.ny), together, [&](std::size_t begin, std::size_t end) {
+    std::vector<Pencil> pencils;
+    for (std::size_t j = begin; j < end; ++j) {
+      pencils.emplace_back(fluid, axis, dt, shared);
+      pencils.back().begin(static_cast<int>(j) + 1);
+    }
+    for (int f = 1; f <= grid.nz + 1; ++f) {
+      for (std::size_t j = begin; j < end; ++j) pencils[j - begin].face(f, static_cast<int>(j) + 1);
+    }
+  });
 }
 
 }  // namespace polynya::fluid

@@ -32,6 +32,8 @@ Given give(SharedCell& cell, int axis, bool upper, double volume, double cell_vo
 
 /// sweep.cpp: one sweep along an axis.
 void sweep(Fluid& fluid, int axis, double dt, SharedCells& shared);
+/// Two sweeps along x and y or y and x. Layers without shared cells go through both while they are in cache.
+void sweep_layers(Fluid& fluid, int first, int second, double dt, SharedCells& shared);
 
 /// remap.cpp: materials that a row of cells and its neighbours all around hold: bit 1 water, bit 2 air.
 int materials_around(const Fluid& fluid, int j, int k);

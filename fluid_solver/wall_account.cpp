@@ -1,6 +1,7 @@
 // What the fluid gave to the bodies in a step, and what the change of volume was made of: the walls' motion, and
 // the rest that the volume correction could not balance among neighbours.
 #include "fluid_solver/phases.hpp"
+#include "fluid_solver/row_geometry.hpp"
 
 namespace polynya::fluid {
 
@@ -23,16 +24,22 @@ void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls, con
   }
   if (fluid.setup.gravity == 0) return;
   // Weight as the faces carry it: gravity times half the density of each side over the open area.
-  account.gravity_impulse += dt * fluid.setup.gravity * row_sum(grid, 1, [&](int j, int k) {
-    double sum = 0;
-    if (j > grid.ny) return sum;
-    for (int i = 1; i <= grid.nx; ++i) {
-      const std::ptrdiff_t f = grid.at(i, j, k);
-      const double open = 0.5 * (fluid.before.open[2][f] + fluid.after.open[2][f]) * grid.dx[i] * grid.dy[j];
-      sum += open * 0.5 * (grid.dz[k - 1] * fluid.density[f - grid.sz] + grid.dz[k] * fluid.density[f]);
-    }
-    return sum;
-  });
+  account.gravity_impulse +=
+      dt * fluid.setup.gravity * row_sum(grid, 1, [&](int j, int k) {
+        double sum = 0;
+        if (j > grid.ny) return sum;
+        const std::ptrdiff_t row = grid.at(0, j, k), sz = grid.sz;
+        const double *rho = fluid.density.data() + row, low = 0.5 * grid.dz[k - 1], high = 0.5 * grid.dz[k];
+        with_row(fluid, j, k, [&](auto at) {
+    // The coefficient is the open area over the sum of the four nodes' fractions.
+#pragma omp simd reduction(+ : sum)
+          for (int i = 1; i <= grid.nx; ++i) {
+            const double nodes = (at.node(i) + at.node(i + 1)) + (at.node(i + grid.sy) + at.node(i + grid.sy + 1));
+            sum += at.z(i) * nodes * (low * rho[i - sz] + high * rho[i]);
+          }
+        });
+        return sum;
+      });
 }
 
 }  // namespace polynya::fluid

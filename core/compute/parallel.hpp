@@ -17,6 +17,17 @@ void for_chunks(std::size_t count, std::size_t chunk, Body&& body) {
   }
 }
 
+/// The same for chunks that may take very different times: a thread takes the next chunk when it is done with one.
+template <class Body>
+void for_uneven_chunks(std::size_t count, std::size_t chunk, Body&& body) {
+  const std::ptrdiff_t chunks = static_cast<std::ptrdiff_t>((count + chunk - 1) / chunk);
+#pragma omp parallel for schedule(dynamic) if (chunks > 1)
+  for (std::ptrdiff_t c = 0; c < chunks; ++c) {
+    const std::size_t begin = static_cast<std::size_t>(c) * chunk;
+    body(begin, std::min(count, begin + chunk));
+  }
+}
+
 /// Sum of term(i) over [0, count): partial sums per chunk, added in the order of the chunks.
 template <class Term>
 double ordered_sum(std::size_t count, std::size_t chunk, Term&& term) {

@@ -1,0 +1,208 @@
+// New velocities of nodes: the predicted pressure by the adjoint of the face average, weight as the faces carry it, and
+// a viscosity against hourglass modes: the part of a full cell's eight corner velocities that no linear field can be.
+// That viscosity scales with density times (0.002 c + 0.1 |u|): with density times c it would inflate the added mass
+// (OVERLAP).
+#include <algorithm>
+
+#include "fluid_solver/phases.hpp"
+#include "fluid_solver/row_geometry.hpp"
+
+namespace polynya::fluid {
+namespace {
+
+/// Forces on the corners of a row of cells, one component, along the four edges in x (number y + 2 z): on their lower
+/// and on their upper ends, by cell.
+struct EdgeForces {
+  std::array<double*, 4> lower, upper;
+};
+
+/// With sums s and differences d along x, what no linear field can be is d less its mean over the four edges, and of s
+/// what alternates in y and z.
+void edge_forces(const double* u, const double* coefficient, int count, std::ptrdiff_t sy, std::ptrdiff_t sz,
+                 const EdgeForces& out) {
+  double *lower0 = out.lower[0], *lower1 = out.lower[1], *lower2 = out.lower[2], *lower3 = out.lower[3];
+  double *upper0 = out.upper[0], *upper1 = out.upper[1], *upper2 = out.upper[2], *upper3 = out.upper[3];
+#pragma omp simd
+  for (int i = 1; i <= count; ++i) {
+    const double s0 = u[i] + u[i + 1], d0 = u[i] - u[i + 1];
+    const double s1 = u[i + sy] + u[i + sy + 1], d1 = u[i + sy] - u[i + sy + 1];
+    const double s2 = u[i + sz] + u[i + sz + 1], d2 = u[i + sz] - u[i + sz + 1];
+    const double s3 = u[i + sy + sz] + u[i + sy + sz + 1], d3 = u[i + sy + sz] - u[i + sy + sz + 1];
+    const double half = -0.5 * coefficient[i];
+    const double twist = half * 0.25 * ((s0 - s1) - (s2 - s3)), mean = 0.25 * ((d0 + d1) + (d2 + d3));
+    const double e0 = half * (d0 - mean), e1 = half * (d1 - mean), e2 = half * (d2 - mean), e3 = half * (d3 - mean);
+    lower0[i] = twist + e0;
+    upper0[i] = twist - e0;
+    lower1[i] = e1 - twist;
+    upper1[i] = -e1 - twist;
+    lower2[i] = e2 - twist;
+    upper2[i] = -e2 - twist;
+    lower3[i] = twist + e3;
+    upper3[i] = twist - e3;
+  }
+}
+
+/// Energy that the hourglass viscosity has taken, and kinetic energy of the new velocities, J.
+struct Energies {
+  double dissipated = 0, kinetic = 0;
+};
+
+/// Geometry of the rows of faces around a row of nodes.
+template <class Row>
+struct Around {
+  Row own, y, z, yz;
+  Around(const Fluid& fluid, int j, int k)
+      : own(fluid, j, k), y(fluid, j - 1, k), z(fluid, j, k - 1), yz(fluid, j - 1, k - 1) {}
+};
+
+template <class Row>
+Energies accelerate_row(Fluid& fluid, double dt, int j, int k, const std::array<double*, 3>& hourglass) {
+  const Grid& grid = fluid.grid;
+  const std::ptrdiff_t sy = grid.sy, sz = grid.sz, row = grid.at(0, j, k);
+  const Around<Row> at(fluid, j, k);
+  const double *m = row_mass(fluid, j, k), *my = row_mass(fluid, j - 1, k), *mz = row_mass(fluid, j, k - 1),
+               *myz = row_mass(fluid, j - 1, k - 1);
+  const double *p = fluid.predicted_pressure.data() + row, *rho = fluid.density.data() + row;
+  const double *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row,
+               *w = fluid.velocity[2].data() + row;
+  const double *hx = hourglass[0], *hy = hourglass[1], *hz = hourglass[2];
+  double *un = fluid.next_velocity[0].data() + row, *vn = fluid.next_velocity[1].data() + row,
+         *wn = fluid.next_velocity[2].data() + row, *mass = fluid.node_mass.data() + row;
+  const double low = 0.5 * fluid.setup.gravity * grid.dz[k - 1], high = 0.5 * fluid.setup.gravity * grid.dz[k];
+  const auto lift = [=](std::ptrdiff_t f) { return p[f - sz] - p[f] - (low * rho[f - sz] + high * rho[f]); };
+  double loss = 0, moving = 0;
+#pragma omp simd reduction(+ : moving, loss)
+  for (std::ptrdiff_t n = 1; n <= grid.nx + 1; ++n) {
+    const std::ptrdiff_t y = n - sy, z = n - sz, yz = n - sy - sz;
+    const double node =
+        0.125 * (((m[n] + m[n - 1]) + (my[n] + my[n - 1])) + ((mz[n] + mz[n - 1]) + (myz[n] + myz[n - 1])));
+    const double fx = at.own.x(n) * (p[n - 1] - p[n]) + at.y.x(n) * (p[y - 1] - p[y]) + at.z.x(n) * (p[z - 1] - p[z]) +
+                      at.yz.x(n) * (p[yz - 1] - p[yz]);
+    const double fy = at.own.y(n) * (p[n - sy] - p[n]) + at.own.y(n - 1) * (p[n - 1 - sy] - p[n - 1]) +
+                      at.z.y(n) * (p[z - sy] - p[z]) + at.z.y(n - 1) * (p[z - 1 - sy] - p[z - 1]);
+    const double fz =
+        at.own.z(n) * lift(n) + at.own.z(n - 1) * lift(n - 1) + at.y.z(n) * lift(y) + at.y.z(n - 1) * lift(y - 1);
+    const double per_mass = node > 0 ? dt / (node > 0 ? node : 1.0) : 0.0, b = at.own.node(n);
+    const double x_new = u[n] + per_mass * (b * fx + hx[n]), y_new = v[n] + per_mass * (b * fy + hy[n]),
+                 z_new = w[n] + per_mass * (b * fz + hz[n]);
+    un[n] = x_new;
+    vn[n] = y_new;
+    wn[n] = z_new;
+    mass[n] = node;
+    moving += 0.5 * node * (x_new * x_new + y_new * y_new + z_new * z_new);
+    loss += -0.5 * (node > 0 ? dt : 0.0) * (hx[n] * (u[n] + x_new) + hy[n] * (v[n] + y_new) + hz[n] * (w[n] + z_new));
+  }
+  return {loss, moving};
+}
+
+/// Layer by layer through a block of nodes. What a layer of cells does to the nodes above it is kept for them.
+class March {
+ public:
+  March(Fluid& fluid, double dt, const Block& block)
+      : fluid_(fluid),
+        grid_(fluid.grid),
+        dt_(dt),
+        block_(block),
+        width_(static_cast<std::size_t>(grid_.nx) + 3),
+        rows_(static_cast<std::size_t>(block.last_j - block.first_j + 1)),
+        storage_(scratch()) {
+    storage_.assign(width_ * (17 + 3 * rows_), 0.0);  // ends of rows stay 0
+  }
+
+  Energies run() {
+    Energies sum;
+    if (block_.first_k > 1) layer(block_.first_k - 1, nullptr);
+    for (int k = block_.first_k; k <= block_.last_k; ++k) layer(k, &sum);
+    return sum;
+  }
+
+ private:
+  static std::vector<double>& scratch() {
+    thread_local std::vector<double> kept;
+    return kept;
+  }
+  double* at(std::size_t place) { return storage_.data() + width_ * place; }
+  double* force(int d) { return at(static_cast<std::size_t>(d)); }
+  double* next(int d) { return at(static_cast<std::size_t>(3 + d)); }
+  double* next_above(int d) { return at(static_cast<std::size_t>(6 + d)); }
+  EdgeForces edges() {
+    EdgeForces of;
+    for (std::size_t e = 0; e < 4; ++e) {
+      of.lower[e] = at(9 + e);
+      of.upper[e] = at(13 + e);
+    }
+    return of;
+  }
+  double* above(int d, int j) {
+    return at(17 + static_cast<std::size_t>(d) * rows_ + static_cast<std::size_t>(j - block_.first_j));
+  }
+
+  /// Forces of the row of cells (j, k) and of what is kept from the row and the layer before on the nodes of the row,
+  /// if they are of this block; keeps what the next row and the layer above will feel.
+  void gather(int d, int j, int k) {
+    double *out = force(d), *next_row = next(d), *next_row_above = next_above(d);
+    const EdgeForces on = edges();
+    const std::ptrdiff_t row = grid_.at(0, j, k);
+    if (j >= 1 && j <= grid_.ny && k <= grid_.nz) {
+      edge_forces(fluid_.velocity[d].data() + row, fluid_.viscosity.data() + row, grid_.nx, grid_.sy, grid_.sz, on);
+    } else {
+      for (std::size_t e = 0; e < 4; ++e) {
+        std::fill_n(on.lower[e], width_, 0.0);
+        std::fill_n(on.upper[e], width_, 0.0);
+      }
+    }
+    const double *l0 = on.lower[0], *u0 = on.upper[0], *l1 = on.lower[1], *u1 = on.upper[1];
+    const double *l2 = on.lower[2], *u2 = on.upper[2], *l3 = on.lower[3], *u3 = on.upper[3];
+    if (j >= block_.first_j) {
+      double* kept = above(d, j);
+#pragma omp simd
+      for (int i = 1; i <= grid_.nx + 1; ++i) {
+        out[i] = kept[i] + ((l0[i] + u0[i - 1]) + next_row[i]);
+        kept[i] = (l2[i] + u2[i - 1]) + next_row_above[i];
+      }
+    }
+#pragma omp simd
+    for (int i = 1; i <= grid_.nx + 1; ++i) {
+      next_row[i] = l1[i] + u1[i - 1];
+      next_row_above[i] = l3[i] + u3[i - 1];
+    }
+  }
+
+  void layer(int k, Energies* sum) {
+    for (int d = 0; d < 3; ++d) gather(d, block_.first_j - 1, k);
+    for (int j = block_.first_j; j <= block_.last_j; ++j) {
+      for (int d = 0; d < 3; ++d) gather(d, j, k);
+      if (!sum) continue;
+      const bool open = untouched(fluid_, j, k) && untouched(fluid_, j - 1, k) && untouched(fluid_, j, k - 1) &&
+                        untouched(fluid_, j - 1, k - 1);
+      const std::array<double*, 3> hourglass{force(0), force(1), force(2)};
+      const Energies row = open ? accelerate_row<OpenRow>(fluid_, dt_, j, k, hourglass)
+                                : accelerate_row<TouchedRow>(fluid_, dt_, j, k, hourglass);
+      sum->dissipated += row.dissipated;
+      sum->kinetic += row.kinetic;
+    }
+  }
+
+  Fluid& fluid_;
+  const Grid& grid_;
+  double dt_;
+  Block block_;
+  std::size_t width_, rows_;
+  std::vector<double>& storage_;
+};
+
+}  // namespace
+
+double accelerate_nodes(Fluid& fluid, double dt) {
+  std::vector<Energies> of_blocks(block_count(fluid.grid, 1));
+  for_blocks(fluid.grid, 1, [&](const Block& block) { of_blocks[block.number] = March(fluid, dt, block).run(); });
+  Energies sum;
+  for (const Energies& block : of_blocks) {
+    sum.dissipated += block.dissipated;
+    sum.kinetic += block.kinetic;
+  }
+  fluid.account.hourglass += sum.dissipated;
+  return sum.kinetic;
+}
+
+}  // namespace polynya::fluid
