@@ -63,11 +63,22 @@ fluid::Fluid build(const Options& options, const scene::Scene& scene) {
   return built;
 }
 
+/// Runs body; if the fluid loses its meaning the last good state becomes a frame and the error says so.
+template <class Body>
+void keeping_last_good(fluid::Output& output, Body&& body) {
+  try {
+    body();
+  } catch (const fluid::FluidError& error) {
+    throw fluid::FluidError(std::string(error.what()) + "; " + output.write_last_good());
+  }
+}
+
 void run(const Options& options, const scene::Scene& scene, fluid::Fluid& built) {
   fluid::Output output(options.out, options.name, scene.run.end_time, scene);
   if (options.alone()) {
     try {
-      const double error = fluid::run_tube(scene, built, output);
+      double error = -1;
+      keeping_last_good(output, [&] { error = fluid::run_tube(scene, built, output); });
       if (error >= 0) spdlog::info("mean error of the density: {:.4f} of its mean", error);
       output.write_summary(built, error);
     } catch (...) {
@@ -81,7 +92,7 @@ void run(const Options& options, const scene::Scene& scene, fluid::Fluid& built)
   exchange::Participant coupler({options.endpoint, options.run, options.name, 60, options.replay});
   const auto close = [&] { output.close(built, coupler.waits().intervals()); };
   try {
-    fluid::run_coupled(scene, built, coupler, output);
+    keeping_last_good(output, [&] { fluid::run_coupled(scene, built, coupler, output); });
     close();
   } catch (const exchange::Stopped&) {
     close();

@@ -71,7 +71,9 @@ void remap_cells(Fluid& fluid, double dt);
 void remap_momentum(Fluid& fluid);
 void fix_covered_nodes(Fluid& fluid);
 
-/// guard.cpp
-void check_state(const Fluid& fluid);
+/// guard.cpp: equations of state out of their range, in what evaluate_groups left. Throws FluidError.
+void check_ranges(const Fluid& fluid);
+/// A cell that no solid cuts must survive the closing of its sides in any order of the axes. Throws FluidError.
+void check_lagrange_volumes(const Fluid& fluid, double dt);
 
 }  // namespace polynya::fluid
