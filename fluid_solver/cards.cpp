@@ -21,6 +21,10 @@ void check_tube_side(const scene::TubeState& side, const EquationOfState& law) {
                              " Pa are out of the range of its law: " + fault);
 }
 
+ShockViscosity viscosity_of(const scene::Fluid& fluid) {
+  return fluid.shock_viscosity == "reference" ? ShockViscosity::reference : ShockViscosity::limited;
+}
+
 }  // namespace
 
 EquationOfState law_of(const scene::MaterialCard& card) {
@@ -49,6 +53,7 @@ Fluid make_fluid(const scene::Scene& scene) {
   setup.name = {description.water, description.air};
   const bool cavitates = scene.effect("cavitation");
   setup.pressure_floor = {cavitates ? description.vapour_pressure : -1e300, 0.0};
+  setup.shock_viscosity = viscosity_of(description);
   setup.gravity = scene.run.gravity;
   setup.atmospheric_pressure = description.atmospheric_pressure;
   setup.boundary.fill(description.outer_boundary == "non_reflecting" ? Boundary::non_reflecting : Boundary::wall);
@@ -62,6 +67,7 @@ Fluid make_tube(const scene::Scene& scene) {
   Setup setup;
   setup.law = {law_of(scene.material(tube.left.material)), law_of(scene.material(tube.right.material))};
   setup.name = {tube.left.material + " (left)", tube.right.material + " (right)"};
+  setup.shock_viscosity = viscosity_of(*scene.fluid);
   setup.boundary.fill(Boundary::wall);
   setup.atmospheric_pressure = 0;
   for (int m = 0; m < 2; ++m) {

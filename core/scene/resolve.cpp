@@ -87,9 +87,12 @@ void load_materials(Document document, const Values& values, Scene& scene) {
 void check_sections(const Document& document, const Values& values) {
   const auto& file = document.file.string();
   if (values.has("tube")) {
-    for (const std::string other : {"vehicle", "ice", "water", "air", "fluid"})
+    for (const std::string other : {"vehicle", "ice", "water", "air"})
       if (values.has(other))
         throw SceneError(document.tables.at(other) + ": [" + other + "] cannot stand beside [tube]; remove one");
+    for (const auto& [path, entry] : document.values)
+      if (path.starts_with("fluid.") && path != "fluid.shock_viscosity")
+        throw SceneError(entry.where + ": " + path + " cannot stand beside [tube], which has only fluid.shock_viscosity");
     for (const std::string side : {"tube.left", "tube.right"})
       if (!values.has(side)) throw SceneError(document.tables.at("tube") + ": [" + side + "] is missing");
     return;
@@ -144,7 +147,10 @@ void read_parts(const Values& values, Scene& scene) {
   if (scene.vehicle) place_vehicle(values, scene);
   read_run(values, scene);
   read_resolution(values, scene);
-  if (values.has("tube")) scene.fluid.emplace().tube = read_tube(values);
+  if (values.has("tube")) {
+    scene.fluid.emplace().tube = read_tube(values);
+    scene.fluid->shock_viscosity = values.text("fluid.shock_viscosity");
+  }
   if (values.has("water")) scene.fluid.emplace(), read_fluid(values, scene);
 }
 

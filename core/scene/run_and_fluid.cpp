@@ -119,6 +119,7 @@ void read_fluid(const Values& values, Scene& scene) {
   const auto& water = scene.material(f.water);
   f.vapour_pressure = water.has("vapour_pressure") ? water.value("vapour_pressure") : 0;
   f.start = values.text("fluid.start"), f.outer_boundary = values.text("fluid.outer_boundary");
+  f.shock_viscosity = values.text("fluid.shock_viscosity");
   f.bottom = (scene.ice ? scene.ice->lower_face : f.waterline) - values.number("water.depth");
   f.top = (scene.ice ? scene.ice->lower_face + scene.ice->thickness : f.waterline) + values.number("air.height");
   if (v) {

@@ -102,6 +102,7 @@ struct Fluid {
   double vapour_pressure = 0;       ///< Pa, absolute; lower bound of the pressure of water
   std::string start;                ///< "potential_flow" or "impulsive"
   std::string outer_boundary;       ///< "non_reflecting" or "wall"
+  std::string shock_viscosity;      ///< "limited" or "reference"
   std::optional<Tube> tube;         ///< then the fluid is a one-dimensional tube and nothing else above holds
 };
 

@@ -137,6 +137,9 @@ std::vector<KeyRule> fluid_rules() {
              "state of the water around the moving vehicle"),
       choice("fluid.outer_boundary", {"non_reflecting", "wall"}, "non_reflecting",
              "sides, bottom and top of the domain"),
+      choice("fluid.shock_viscosity", {"limited", "reference"}, "limited",
+             "away from solids: only in compression that is not smooth, or in all compression (0.06 linear, 1.5 "
+             "quadratic); beside solids always the latter"),
       positive("tube.length", dim::length, "required", "along x; a scene with [tube] holds nothing but the tube"),
       positive("tube.diaphragm", dim::length, "auto", "x of the diaphragm; auto: the middle"),
   };
