@@ -30,7 +30,7 @@ void apply_to_cells(Fluid& fluid, const VolumeCorrection& correction);
 void apply_to_faces(Fluid& fluid, const VolumeCorrection& correction, double dt);
 
 /// boundaries.cpp: ghost pressures at open boundaries, ghost values for the remap, walls and their accounts.
-void set_boundary_pressure(Fluid& fluid);
+void set_boundary_pressure(Fluid& fluid, double dt);
 /// Takes the present outward speeds as those of a slow flow around a body at `centre` (m).
 void start_far_field(Fluid& fluid, const std::array<double, 3>& centre);
 void advance_far_field(Fluid& fluid, double dt);

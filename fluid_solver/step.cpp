@@ -47,7 +47,7 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     predict_group_pressure(fluid, dt);
     {
       const auto inner = fluid.watch.lap("boundaries");
-      set_boundary_pressure(fluid);
+      set_boundary_pressure(fluid, dt);
     }
     {
       const auto inner = fluid.watch.lap("hourglass");
