@@ -140,8 +140,8 @@ void set_boundary_pressure(Fluid& fluid, double dt) {
       }
       const double impedance = fluid.density[cell] * fluid.sound_speed[cell];
       // The outward speed is that of the middle of the step: by then what drives the half cell at the face, inside less
-      // outside, has changed it by dt/2 over density times half a width. (With the speed at the start of the step 4 % of
-      // a wave of twenty cells came back, now 0.7 %.)
+      // outside, has changed it by dt/2 over density times half a width. (With the speed at the start of the step 4 %
+      // of a wave of twenty cells came back, now 0.7 %.)
       const double share = fluid.sound_speed[cell] * dt / width(grid, side.axis, cell);
       const double now = pressure + impedance * (outward_speed(fluid, side, cell) - slow);
       fluid.predicted_pressure[ghost] = (now + share * inside) / (1.0 + share);

@@ -1,6 +1,7 @@
 #include "fluid_solver/cards.hpp"
 
 #include "core/scene/graded_line.hpp"
+#include "fluid_solver/dam_break.hpp"
 #include "fluid_solver/equation_range.hpp"
 
 namespace polynya::fluid {
@@ -59,7 +60,9 @@ Fluid make_fluid(const scene::Scene& scene) {
   setup.boundary.fill(description.outer_boundary == "non_reflecting" ? Boundary::non_reflecting : Boundary::wall);
   if (scene.symmetry == scene::Symmetry::quarter) setup.boundary[0] = Boundary::wall;
   if (scene.symmetry != scene::Symmetry::full) setup.boundary[2] = Boundary::wall;
-  return {grid_of(scene), setup};
+  Fluid fluid{grid_of(scene), setup};
+  if (description.dam) fill_column(fluid, description.dam->length, description.dam->height);
+  return fluid;
 }
 
 Fluid make_tube(const scene::Scene& scene) {

@@ -26,7 +26,7 @@ enum class ShockViscosity { reference, limited };
 /// What does not change during a run.
 struct Setup {
   std::array<EquationOfState, 2> law{MieGrueneisen{}, LinearPolynomial{}};
-  std::array<std::string, 2> name{"water", "air"};            ///< of the materials, for messages
+  std::array<std::string, 2> name{"water", "air"};    ///< of the materials, for messages
   std::array<double, 2> pressure_floor{2339.0, 0.0};  ///< lower bound of the absolute pressure of each material, Pa
   std::array<Boundary, 6> boundary{};                 ///< x-, x+, y-, y+, z-, z+
   std::array<double, 3> ambient_velocity{};           ///< of the fluid beyond non-reflecting boundaries, m/s
@@ -176,8 +176,8 @@ void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<do
 /// Refreshes pressure, density and sound speed from the state (also what a step does first).
 void update_cell_states(Fluid& fluid);
 
-/// Looks at every cell: throws FluidError, with the first cell's place and state, where values are not finite, a density
-/// is negative or an equation of state is out of its range (equation_range.hpp).
+/// Looks at every cell: throws FluidError, with the first cell's place and state, where values are not finite, a
+/// density is negative or an equation of state is out of its range (equation_range.hpp).
 void check_state(const Fluid& fluid);
 
 /// Instantaneous entries of the account: energies, momentum, masses. False if some cell or node may have lost its

@@ -10,8 +10,8 @@
 
 namespace polynya::fluid {
 
-/// What a run of the fluid solver leaves behind: RUN/fields/fluid_*.vtkhdf, RUN/series/fluid.csv, RUN/logs/NAME.json, and
-/// the figures of its summary.
+/// What a run of the fluid solver leaves behind: RUN/fields/fluid_*.vtkhdf, RUN/series/fluid.csv, RUN/logs/NAME.json,
+/// and the figures of its summary.
 class Output {
  public:
   /// The series gets at most about 10,000 rows over `duration` (s).
@@ -23,7 +23,8 @@ class Output {
   void record(const Fluid& fluid, double step);
   /// Checks the state first (FluidError): frames are good states.
   void write_frame(Fluid& fluid, int number);
-  /// After a FluidError: makes the last good state a frame, unless it is one. Returns where it is, as a part of a sentence.
+  /// After a FluidError: makes the last good state a frame, unless it is one. Returns where it is, as a part of a
+  /// sentence.
   std::string write_last_good();
   /// Last row and the report of the process, which was blocked in these waits.
   void close(const Fluid& fluid, const results::Waits& waits);

@@ -82,6 +82,11 @@ TEST(SceneErrors, PartsThatCannotStandTogetherAreNamed) {
   expect_message(message_of(scene_file("[tube]\n[ice]\n")), {":2: ", "[ice] cannot stand beside [tube]"});
   expect_message(message_of(scene_file("[tube]\n[fluid]\nlength = 1.0\n")),
                  {":3: ", "fluid.length cannot stand beside [tube]"});
+  expect_message(message_of(scene_file("[dam]\nlength = 1.0\n")), {":1: ", "[dam] needs [water] and [air]"});
+  expect_message(message_of(scene_file("[dam]\n[water]\ndepth = 1.0\n[air]\n")),
+                 {":3: ", "water.depth cannot stand beside [dam]"});
+  expect_message(message_of(case_folder("dam_break"), {.level = {}, .settings = {"dam.height=1 m"}}),
+                 {"dam.height", "must be below dam.tank_height"});
   expect_message(message_of(scene_file("")), {"an empty scene"});
 }
 
