@@ -96,8 +96,9 @@ TEST(SceneErrors, ARequiredKeyIsAskedFor) {
 }
 
 TEST(SceneErrors, ShockViscosityNeedsAFluidAndOneOfItsTwoForms) {
-  expect_message(message_of(case_folder("vehicle_drop"), {.level = {}, .settings = {"fluid.shock_viscosity=reference"}}),
-                 {"[fluid] needs [water] and [air]"});
+  expect_message(
+      message_of(case_folder("vehicle_drop"), {.level = {}, .settings = {"fluid.shock_viscosity=reference"}}),
+      {"[fluid] needs [water] and [air]"});
   expect_message(message_of_settings({"fluid.shock_viscosity=0.06"}), {"one of limited, reference"});
 }
 
