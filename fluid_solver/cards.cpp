@@ -1,6 +1,8 @@
 #include "fluid_solver/cards.hpp"
 
 #include "core/scene/graded_line.hpp"
+#include "fluid_solver/dam_break.hpp"
+#include "fluid_solver/equation_range.hpp"
 
 namespace polynya::fluid {
 namespace {
@@ -8,6 +10,20 @@ namespace {
 Grid grid_of(const scene::Scene& scene) {
   scene::GridLines lines = scene::fluid_grid_lines(scene);
   return {std::move(lines.x), std::move(lines.y), std::move(lines.z)};
+}
+
+/// Throws std::runtime_error naming the side if its state is none of its law.
+void check_tube_side(const scene::TubeState& side, const EquationOfState& law) {
+  const double e = energy_at(law, side.density, side.pressure);
+  const std::string fault = range_fault(law, {-1e300, largest_density(law)}, side.density, e);
+  if (!fault.empty())
+    throw std::runtime_error("tube, side of " + side.material + ": density " + std::to_string(side.density) +
+                             " kg/m^3 and pressure " + std::to_string(side.pressure) +
+                             " Pa are out of the range of its law: " + fault);
+}
+
+ShockViscosity viscosity_of(const scene::Fluid& fluid) {
+  return fluid.shock_viscosity == "reference" ? ShockViscosity::reference : ShockViscosity::limited;
 }
 
 }  // namespace
@@ -35,26 +51,33 @@ Fluid make_fluid(const scene::Scene& scene) {
   const scene::Fluid& description = *scene.fluid;
   Setup setup;
   setup.law = {law_of(scene.material(description.water)), law_of(scene.material(description.air))};
+  setup.name = {description.water, description.air};
   const bool cavitates = scene.effect("cavitation");
   setup.pressure_floor = {cavitates ? description.vapour_pressure : -1e300, 0.0};
+  setup.shock_viscosity = viscosity_of(description);
   setup.gravity = scene.run.gravity;
   setup.atmospheric_pressure = description.atmospheric_pressure;
   setup.boundary.fill(description.outer_boundary == "non_reflecting" ? Boundary::non_reflecting : Boundary::wall);
   if (scene.symmetry == scene::Symmetry::quarter) setup.boundary[0] = Boundary::wall;
   if (scene.symmetry != scene::Symmetry::full) setup.boundary[2] = Boundary::wall;
-  return {grid_of(scene), setup};
+  Fluid fluid{grid_of(scene), setup};
+  if (description.dam) fill_column(fluid, description.dam->length, description.dam->height);
+  return fluid;
 }
 
 Fluid make_tube(const scene::Scene& scene) {
   const scene::Tube& tube = *scene.fluid->tube;
   Setup setup;
   setup.law = {law_of(scene.material(tube.left.material)), law_of(scene.material(tube.right.material))};
+  setup.name = {tube.left.material + " (left)", tube.right.material + " (right)"};
+  setup.shock_viscosity = viscosity_of(*scene.fluid);
   setup.boundary.fill(Boundary::wall);
   setup.atmospheric_pressure = 0;
   for (int m = 0; m < 2; ++m) {
     const bool gas = std::holds_alternative<IdealGas>(setup.law[m]) || std::holds_alternative<LinearPolynomial>(setup.law[m]);
     setup.pressure_floor[m] = gas ? 0.0 : -1e300;
   }
+  for (int m = 0; m < 2; ++m) check_tube_side(m == 0 ? tube.left : tube.right, setup.law[m]);
   Fluid fluid(grid_of(scene), setup);
   const Grid& grid = fluid.grid;
   fill(fluid, {}, [&](int i, int, int) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/compute/large_pages.hpp"
+#include "fluid_solver/equation_range.hpp"
 #include "fluid_solver/phases.hpp"
 
 namespace polynya::fluid {
@@ -32,6 +33,7 @@ Fluid::Fluid(Grid grid_in, Setup setup_in)
     if (setup.boundary[side] != Boundary::wall) outflow[side].assign(faces[side / 2], {});
   }
   label.assign(size, -1);
+  for (int m = 0; m < 2; ++m) largest_density[m] = polynya::fluid::largest_density(setup.law[m]);
   ambient.assign(static_cast<std::size_t>(grid.nz) + 3, {});
 }
 
@@ -108,6 +110,7 @@ double stable_step(const Fluid& fluid) {
 
 bool update_account(Fluid& fluid) {
   const Grid& grid = fluid.grid;
+  const std::array<bool, 2> gas{is_gas(fluid.setup.law[0]), is_gas(fluid.setup.law[1])};
   const auto sums = row_sums<8>(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
     std::array<double, 8> sum{};
@@ -121,6 +124,10 @@ bool update_account(Fluid& fluid) {
         first += m0[i];
         second += m1[i];
         internal += e0[i] + e1[i];
+      }
+      for (int m = 0; m < 2; ++m) {
+        const double* e = m == 0 ? e0 : e1;
+        for (int i = 1; gas[m] && i <= grid.nx; ++i) least = std::min(least, e[i]);
       }
       sum = {first, second, internal};
       sum[7] = least;

@@ -26,6 +26,7 @@ enum class ShockViscosity { reference, limited };
 /// What does not change during a run.
 struct Setup {
   std::array<EquationOfState, 2> law{MieGrueneisen{}, LinearPolynomial{}};
+  std::array<std::string, 2> name{"water", "air"};    ///< of the materials, for messages
   std::array<double, 2> pressure_floor{2339.0, 0.0};  ///< lower bound of the absolute pressure of each material, Pa
   std::array<Boundary, 6> boundary{};                 ///< x-, x+, y-, y+, z-, z+
   std::array<double, 3> ambient_velocity{};           ///< of the fluid beyond non-reflecting boundaries, m/s
@@ -79,6 +80,7 @@ struct Fluid {
   std::vector<Ambient> ambient;                 ///< by padded k
   FarField far_field;
   StartDamping start_damping;
+  std::array<double, 2> largest_density{};  ///< that the laws hold for, kg/m^3
   Account account;
   compute::Stopwatch watch;
   double time = 0;
@@ -158,7 +160,9 @@ int start_potential_flow(Fluid& fluid);
 /// `now`.
 int adapt_potential_flow(Fluid& fluid, const Overlap& now, const Overlap& soon, double waterline);
 
-/// Advances by dt to the time at which the solids are as `overlap` says. Throws FluidError at a state without meaning.
+/// Advances by dt to the time at which the solids are as `overlap` says. Throws FluidError at a state without meaning:
+/// what check_state names in the state it starts from, a grid that folds in its Lagrange phase, values that are not
+/// finite or negative masses in the state it leaves. The state is then spoilt.
 void step(Fluid& fluid, double dt, const Overlap& overlap);
 
 /// Largest step the scheme bears: half a cell per sound speed plus flow speed, s.
@@ -176,8 +180,12 @@ void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<do
 /// Refreshes pressure, density and sound speed from the state (also what a step does first).
 void update_cell_states(Fluid& fluid);
 
+/// Looks at every cell: throws FluidError, with the first cell's place and state, where values are not finite, a
+/// density is negative or an equation of state is out of its range (equation_range.hpp).
+void check_state(const Fluid& fluid);
+
 /// Instantaneous entries of the account: energies, momentum, masses. False if some cell or node may have lost its
-/// meaning.
+/// meaning: not finite, a negative mass, a negative energy of a gas.
 bool update_account(Fluid& fluid);
 
 struct FluidError : std::runtime_error {

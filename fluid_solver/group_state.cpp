@@ -78,7 +78,7 @@ double weight_compression(const Fluid& fluid, const GroupState& state, std::ptrd
 /// The state of a member of a cavitating group by its own density: void in one cell is no reason for the next to give
 /// way. Were all given the mean, a void would hide the compression of its neighbours until the group parts, at once.
 void evaluate_cavitating_member(Fluid& fluid, const GroupState& state, std::ptrdiff_t cell, double share) {
-  if (share * state.content.mass[water] <= void_density * state.volume) {
+  if (!(share * state.content.mass[water] > void_density * state.volume)) {  // a member that holds nothing
     fluid.pressure[cell] = fluid.setup.pressure_floor[water];
     fluid.density[cell] = fluid.bulk_modulus[cell] = fluid.sound_speed[cell] = 0;
     return;

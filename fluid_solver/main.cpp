@@ -12,6 +12,7 @@
 #include "core/exchange/replay_options.hpp"
 #include "fluid_solver/cards.hpp"
 #include "fluid_solver/conversation.hpp"
+#include "fluid_solver/dam_run.hpp"
 #include "fluid_solver/tube.hpp"
 
 namespace {
@@ -28,14 +29,16 @@ struct Options {
 
 /// Reads the command line; a value means that the process ends with this exit code.
 std::optional<int> parse(int argc, char** argv, Options& options) {
-  CLI::App app{"Moves water and air around the solids that cut its grid. Without --connect: a shock tube."};
+  CLI::App app{
+      "Moves water and air around the solids that cut its grid. Without --connect: a shock tube or a dam that breaks."};
   app.add_option("--scene", options.scene, "resolved scene (RUN/scene.json)")->required();
   app.add_option("--out", options.out, "run folder")->required();
   auto* connect = app.add_option("--connect", options.endpoint, "the coupler's endpoint");
   app.add_option("--run", options.run, "identity of the run, the coupler's")->needs(connect);
   app.add_option("--name", options.name, "name under which the coupler expects this process");
   exchange::add_replay_options(app, options.replay);
-  app.add_option("--threads", options.threads, "threads to use; 0: as many as OpenMP offers")->check(CLI::NonNegativeNumber);
+  app.add_option("--threads", options.threads, "threads to use; 0: as many as OpenMP offers")
+      ->check(CLI::NonNegativeNumber);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -54,20 +57,39 @@ void start_log(const Options& options) {
 fluid::Fluid build(const Options& options, const scene::Scene& scene) {
   if (!scene.fluid) throw std::runtime_error(options.scene + ": the scene has no fluid");
   const bool tube = scene.fluid->tube.has_value();
-  if (tube != options.alone()) {
-    throw std::runtime_error(options.scene + (tube ? ": a tube runs alone, without --connect"
-                                                   : ": water and air move around solids; give --connect, or a scene with [tube]"));
+  const bool alone = tube || scene.fluid->dam;
+  if (alone != options.alone()) {
+    throw std::runtime_error(
+        options.scene + (alone
+                             ? ": a tube or a dam runs alone, without --connect"
+                             : ": water and air move around solids; give --connect, or a scene with [tube] or [dam]"));
   }
   fluid::Fluid built = tube ? fluid::make_tube(scene) : fluid::make_fluid(scene);
   spdlog::info("grid: {} x {} x {} = {} cells", built.grid.nx, built.grid.ny, built.grid.nz, built.grid.cells());
   return built;
 }
 
+/// Runs body; if the fluid loses its meaning the last good state becomes a frame and the error says so.
+template <class Body>
+void keeping_last_good(fluid::Output& output, Body&& body) {
+  try {
+    body();
+  } catch (const fluid::FluidError& error) {
+    throw fluid::FluidError(std::string(error.what()) + "; " + output.write_last_good());
+  }
+}
+
 void run(const Options& options, const scene::Scene& scene, fluid::Fluid& built) {
   fluid::Output output(options.out, options.name, scene.run.end_time, scene);
   if (options.alone()) {
     try {
-      const double error = fluid::run_tube(scene, built, output);
+      double error = -1;
+      keeping_last_good(output, [&] {
+        if (scene.fluid->dam)
+          fluid::run_dam(scene, built, output);
+        else
+          error = fluid::run_tube(scene, built, output);
+      });
       if (error >= 0) spdlog::info("mean error of the density: {:.4f} of its mean", error);
       output.write_summary(built, error);
     } catch (...) {
@@ -81,7 +103,7 @@ void run(const Options& options, const scene::Scene& scene, fluid::Fluid& built)
   exchange::Participant coupler({options.endpoint, options.run, options.name, 60, options.replay});
   const auto close = [&] { output.close(built, coupler.waits().intervals()); };
   try {
-    fluid::run_coupled(scene, built, coupler, output);
+    keeping_last_good(output, [&] { fluid::run_coupled(scene, built, coupler, output); });
     close();
   } catch (const exchange::Stopped&) {
     close();

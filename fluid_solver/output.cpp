@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "core/compute/threads.hpp"
 #include "core/results/durable_file.hpp"
@@ -11,6 +12,7 @@ namespace polynya::fluid {
 namespace {
 
 constexpr double most_rows = 10000;
+constexpr long steps_between_good_states = 20;  ///< keeping one costs about as much as a tenth of a step
 
 std::string unit_of(const std::string& name) {
   if (name.find("mass") != std::string::npos) return "kg";
@@ -112,13 +114,30 @@ void Output::record(const Fluid& fluid, double step) {
   step_ = step;
   smallest_step_ = std::min(smallest_step_, step);
   if (fluid.time >= next_row_) write_row(fluid);
+  if (fluid.steps % steps_between_good_states == 0) keep(fluid);
+}
+
+void Output::keep(const Fluid& fluid) {
+  check_state(fluid);
+  if (cells_.types.empty()) cells_ = make_cells(fluid.grid);
+  add_fields(fluid, cells_);
+  good_time_ = fluid.time;
 }
 
 void Output::write_frame(Fluid& fluid, int number) {
   const auto lap = fluid.watch.lap("frames");
-  if (cells_.types.empty()) cells_ = make_cells(fluid.grid);
-  add_fields(fluid, cells_);
+  keep(fluid);
   frames_.write(number, cells_, fluid.time);
+  frame_time_ = fluid.time;
+}
+
+std::string Output::write_last_good() {
+  if (good_time_ < 0) return "no step was good";
+  if (good_time_ != frame_time_) frames_.write(frames(), cells_, good_time_);
+  frame_time_ = good_time_;
+  std::ostringstream text;
+  text << "the last good state kept, of time " << good_time_ << " s, is the last frame in " << folder_ << "/fields";
+  return text.str();
 }
 
 void Output::close(const Fluid& fluid, const results::Waits& waits) {

@@ -10,8 +10,8 @@
 
 namespace polynya::fluid {
 
-/// What a run of the fluid solver leaves behind: RUN/fields/fluid_*.vtkhdf, RUN/series/fluid.csv, RUN/logs/NAME.json, and
-/// the figures of its summary.
+/// What a run of the fluid solver leaves behind: RUN/fields/fluid_*.vtkhdf, RUN/series/fluid.csv, RUN/logs/NAME.json,
+/// and the figures of its summary.
 class Output {
  public:
   /// The series gets at most about 10,000 rows over `duration` (s).
@@ -19,8 +19,13 @@ class Output {
 
   /// Remembers the state that errors of mass and energy are counted from.
   void start(const Fluid& fluid);
+  /// Every twenty steps also checks the state (FluidError) and keeps its fields as the last good ones.
   void record(const Fluid& fluid, double step);
+  /// Checks the state first (FluidError): frames are good states.
   void write_frame(Fluid& fluid, int number);
+  /// After a FluidError: makes the last good state a frame, unless it is one. Returns where it is, as a part of a
+  /// sentence.
+  std::string write_last_good();
   /// Last row and the report of the process, which was blocked in these waits.
   void close(const Fluid& fluid, const results::Waits& waits);
   /// RUN/NAME_summary.json, of a run without a coupler. density_error: see run_tube.
@@ -31,6 +36,7 @@ class Output {
 
  private:
   void write_row(const Fluid& fluid);
+  void keep(const Fluid& fluid);
 
   std::string folder_, name_;
   results::ProcessReport report_;
@@ -39,7 +45,8 @@ class Output {
   double row_interval_, next_row_ = 0, step_ = 0, smallest_step_ = 1e300, last_row_ = -1;
   double vehicle_volume_ = 0;
   Account first_;
-  results::UnstructuredFields cells_;  ///< points and cells, the same in every frame
+  results::UnstructuredFields cells_;  ///< points and cells, the same in every frame; fields of the last good state
+  double good_time_ = -1, frame_time_ = -1;  ///< of these fields, of the last frame; -1: none
 };
 
 }  // namespace polynya::fluid

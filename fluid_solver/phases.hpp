@@ -30,7 +30,7 @@ void apply_to_cells(Fluid& fluid, const VolumeCorrection& correction);
 void apply_to_faces(Fluid& fluid, const VolumeCorrection& correction, double dt);
 
 /// boundaries.cpp: ghost pressures at open boundaries, ghost values for the remap, walls and their accounts.
-void set_boundary_pressure(Fluid& fluid);
+void set_boundary_pressure(Fluid& fluid, double dt);
 /// Takes the present outward speeds as those of a slow flow around a body at `centre` (m).
 void start_far_field(Fluid& fluid, const std::array<double, 3>& centre);
 void advance_far_field(Fluid& fluid, double dt);
@@ -71,7 +71,9 @@ void remap_cells(Fluid& fluid, double dt);
 void remap_momentum(Fluid& fluid);
 void fix_covered_nodes(Fluid& fluid);
 
-/// guard.cpp
-void check_state(const Fluid& fluid);
+/// guard.cpp: equations of state out of their range, in what evaluate_groups left. Throws FluidError.
+void check_ranges(const Fluid& fluid);
+/// A cell that no solid cuts must survive the closing of its sides in any order of the axes. Throws FluidError.
+void check_lagrange_volumes(const Fluid& fluid, double dt);
 
 }  // namespace polynya::fluid

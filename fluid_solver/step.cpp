@@ -35,6 +35,10 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     evaluate_cells(fluid, fluid.before.volume);
     evaluate_groups(fluid);
   }
+  {
+    const auto lap = fluid.watch.lap("guard");
+    check_ranges(fluid);
+  }
   double kinetic_before_remap = 0, taken_from_nodes = 0;
   {
     const auto lap = fluid.watch.lap("lagrange");
@@ -43,10 +47,14 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     {
       const auto inner = fluid.watch.lap("boundaries");
       boundary_face_rates(fluid);
-      set_boundary_pressure(fluid);
+      set_boundary_pressure(fluid, dt);
     }
     kinetic_before_remap = accelerate_nodes(fluid, dt);
     mean_face_rates(fluid);
+    {
+      const auto inner = fluid.watch.lap("guard");
+      check_lagrange_volumes(fluid, dt);
+    }
     {
       const auto inner = fluid.watch.lap("boundaries");
       advance_far_field(fluid, dt);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/results/time_series.hpp"
+#include "fluid_solver/alone.hpp"
 #include "fluid_solver/exact_riemann.hpp"
 
 namespace polynya::fluid {
@@ -55,18 +56,7 @@ double write_profile(const scene::Tube& tube, const Fluid& fluid, const std::str
 }  // namespace
 
 double run_tube(const scene::Scene& scene, Fluid& fluid, Output& output) {
-  const double end = scene.run.end_time, interval = scene.run.frame_interval > 0 ? scene.run.frame_interval : end;
-  output.start(fluid);
-  output.write_frame(fluid, 0);
-  int frame = 1;
-  while (fluid.time < end * (1 - 1e-12)) {
-    const double next_frame = std::min(end, frame * interval);
-    const double largest = scene.run.fluid_step_factor * stable_step(fluid), left = next_frame - fluid.time;
-    const double dt = left <= largest ? left : left < 2 * largest ? 0.5 * left : largest;
-    step(fluid, dt, {});
-    output.record(fluid, dt);
-    if (fluid.time >= next_frame * (1 - 1e-12)) output.write_frame(fluid, frame++);
-  }
+  run_alone(scene, fluid, output, [] {});
   update_cell_states(fluid);
   return write_profile(*scene.fluid->tube, fluid, output.folder() + "/series/tube.csv");
 }

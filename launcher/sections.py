@@ -113,8 +113,9 @@ def make_view(scene: dict, sections: list[Section]) -> View:
         low, high = ice["lower_face"] - 0.5 * thickness, ice["lower_face"] + 1.6 * thickness
     else:
         half, low, high = fluid["length"] / 2, fluid["bottom"], fluid["top"]
+    window = (0, fluid["length"]) if fluid.get("dam") else (-half, half)
     largest = max(pressures, default=0.0)
-    return View(scene, (-half, half), (low, high), Normalize(0, max(stresses, default=1.0) or 1.0),
+    return View(scene, window, (low, high), Normalize(0, max(stresses, default=1.0) or 1.0),
                 pressure_scale(largest) if largest > 0 else None)
 
 

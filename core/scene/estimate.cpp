@@ -88,6 +88,12 @@ void add_fluid(const Scene& scene, Estimate& e) {
     e.fluid_span = cell / fastest;
     return;
   }
+  if (scene.fluid->dam) {
+    const auto& f = *scene.fluid;
+    e.fluid_span = cell / std::max(sound_speed(scene.material(f.water)),
+                                   sound_speed(scene.material(f.air), f.atmospheric_pressure));
+    return;
+  }
   const double layer = scene.ice ? smallest(ice_grid_lines(scene).z) : 0;
   e.fluid_span = std::min(cell / sound_speed(scene.material(scene.fluid->water)), lag_bound(scene, layer));
 }

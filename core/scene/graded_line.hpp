@@ -24,7 +24,8 @@ struct GridLines {
 };
 
 /// Grid lines of the fluid domain: fine about the axis and from the vehicle's tail to the top, with nodes at both faces
-/// of the ice. A quarter starts at x = 0 and y = 0. A tube: uniform along x, one cell across. Throws
+/// of the ice. A quarter starts at x = 0 and y = 0. A tube: uniform along x, one cell across. A dam: uniform
+/// in x and z, one cell thick. Throws
 /// std::invalid_argument if the scene has no fluid.
 GridLines fluid_grid_lines(const Scene& scene);
 

@@ -37,6 +37,17 @@ GridLines tube_lines(const Scene& scene) {
   return lines;
 }
 
+GridLines dam_lines(const Scene& scene) {
+  const double cell = scene.resolution.cell;
+  GridLines lines;
+  append_equal_cells(lines.x, 0, scene.fluid->dam->length, cell);
+  append_equal_cells(lines.x, 0, scene.fluid->length, cell);
+  append_equal_cells(lines.z, 0, scene.fluid->dam->height, cell);
+  append_equal_cells(lines.z, 0, scene.fluid->top, cell);
+  lines.y = {0, cell};
+  return lines;
+}
+
 /// Vertical lines: growing below the fine part, then equal cells in pieces that end at both faces of the ice.
 std::vector<double> vertical_line(const Scene& scene) {
   const auto& fluid = *scene.fluid;
@@ -67,6 +78,7 @@ std::vector<double> beam_half_line(const Ice& ice, double element) {
 GridLines fluid_grid_lines(const Scene& scene) {
   if (!scene.fluid) throw std::invalid_argument("fluid_grid_lines: the scene has no fluid");
   if (scene.fluid->tube) return tube_lines(scene);
+  if (scene.fluid->dam) return dam_lines(scene);
   const auto& r = scene.resolution;
   const double no_limit = std::numeric_limits<double>::infinity();
   GridLines lines;

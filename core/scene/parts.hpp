@@ -11,6 +11,8 @@ Vehicle read_vehicle(const Values& values);
 void check_hull(const Values& values, const Vehicle& vehicle, const MaterialCard& card);
 Ice read_ice(const Values& values);
 Tube read_tube(const Values& values);
+/// Fills scene.fluid with the tank and its column.
+void read_dam(const Values& values, Scene& scene);
 /// z of the nose and checks against ice and water.
 void place_vehicle(const Values& values, Scene& scene);
 /// Latest end, frame interval.

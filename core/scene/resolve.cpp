@@ -84,16 +84,35 @@ void load_materials(Document document, const Values& values, Scene& scene) {
       throw SceneError(entry.where + ": " + path + ": the scene does not use such a card");
 }
 
+void check_dam(const Document& document, const Values& values) {
+  for (const std::string solid : {"vehicle", "ice"})
+    if (values.has(solid))
+      throw SceneError(document.tables.at(solid) + ": [" + solid + "] cannot stand beside [dam]; remove one");
+  if (!values.has("water")) throw SceneError(document.tables.at("dam") + ": [dam] needs [water] and [air]");
+  const std::vector<std::string> known{"water.material", "air.material", "air.pressure", "fluid.shock_viscosity"};
+  for (const auto& [path, entry] : document.values) {
+    const bool fluid = path.starts_with("water.") || path.starts_with("air.") || path.starts_with("fluid.");
+    if (fluid && std::find(known.begin(), known.end(), path) == known.end())
+      throw SceneError(entry.where + ": " + path +
+                       " cannot stand beside [dam], whose tank has walls and its own sizes");
+  }
+}
+
 void check_sections(const Document& document, const Values& values) {
   const auto& file = document.file.string();
   if (values.has("tube")) {
-    for (const std::string other : {"vehicle", "ice", "water", "air", "fluid"})
+    for (const std::string other : {"vehicle", "ice", "water", "air"})
       if (values.has(other))
         throw SceneError(document.tables.at(other) + ": [" + other + "] cannot stand beside [tube]; remove one");
+    for (const auto& [path, entry] : document.values)
+      if (path.starts_with("fluid.") && path != "fluid.shock_viscosity")
+        throw SceneError(entry.where + ": " + path +
+                         " cannot stand beside [tube], which has only fluid.shock_viscosity");
     for (const std::string side : {"tube.left", "tube.right"})
       if (!values.has(side)) throw SceneError(document.tables.at("tube") + ": [" + side + "] is missing");
     return;
   }
+  if (values.has("dam")) check_dam(document, values);
   if (values.has("water") != values.has("air"))
     throw SceneError(document.tables.at(values.has("water") ? "water" : "air") +
                      ": [water] and [air] come together; add [" + (values.has("water") ? "air" : "water") + "]");
@@ -107,6 +126,10 @@ Symmetry symmetry_of(const Values& values, const std::string& wish_for_effect) {
   const auto name = values.text("symmetry");
   if (values.has("tube")) {
     if (name != "auto" && name != "full") values.fail("symmetry", "a tube is modelled whole; must be full");
+    return Symmetry::full;
+  }
+  if (values.has("dam")) {
+    if (name != "auto" && name != "full") values.fail("symmetry", "a tank is modelled whole; must be full");
     return Symmetry::full;
   }
   if (wish_for_effect == "off") return Symmetry::full;
@@ -144,8 +167,14 @@ void read_parts(const Values& values, Scene& scene) {
   if (scene.vehicle) place_vehicle(values, scene);
   read_run(values, scene);
   read_resolution(values, scene);
-  if (values.has("tube")) scene.fluid.emplace().tube = read_tube(values);
-  if (values.has("water")) scene.fluid.emplace(), read_fluid(values, scene);
+  if (values.has("tube")) {
+    scene.fluid.emplace().tube = read_tube(values);
+    scene.fluid->shock_viscosity = values.text("fluid.shock_viscosity");
+  }
+  if (values.has("dam"))
+    scene.fluid.emplace(), read_dam(values, scene);
+  else if (values.has("water"))
+    scene.fluid.emplace(), read_fluid(values, scene);
 }
 
 /// Cards of parts that the effects switched off are no longer part of the scene.

@@ -106,6 +106,25 @@ Tube read_tube(const Values& values) {
   return tube;
 }
 
+void read_dam(const Values& values, Scene& scene) {
+  auto& f = *scene.fluid;
+  f.dam = Dam{values.number("dam.length", 0), values.number("dam.height", 0)};
+  f.length = values.number("dam.tank_length", 0);
+  f.top = values.number("dam.tank_height", 1.25 * f.dam->height);
+  f.width = scene.resolution.cell;
+  f.waterline = f.dam->height;
+  f.water = values.text("water.material"), f.air = values.text("air.material");
+  f.atmospheric_pressure = values.number("air.pressure");
+  const auto& water = scene.material(f.water);
+  f.vapour_pressure = water.has("vapour_pressure") ? water.value("vapour_pressure") : 0;
+  f.start = "impulsive", f.outer_boundary = "wall";
+  f.shock_viscosity = values.text("fluid.shock_viscosity");
+  if (f.dam->length >= f.length) values.fail("dam.length", "must be below dam.tank_length");
+  if (f.dam->height >= f.top) values.fail("dam.height", "must be below dam.tank_height");
+  if (f.length / f.width * (f.top / f.width) > 1e7)
+    values.fail("dam.tank_length", "more than ten million cells; enlarge resolution.cell");
+}
+
 void read_fluid(const Values& values, Scene& scene) {
   auto& f = *scene.fluid;
   const auto& v = scene.vehicle;
@@ -119,6 +138,7 @@ void read_fluid(const Values& values, Scene& scene) {
   const auto& water = scene.material(f.water);
   f.vapour_pressure = water.has("vapour_pressure") ? water.value("vapour_pressure") : 0;
   f.start = values.text("fluid.start"), f.outer_boundary = values.text("fluid.outer_boundary");
+  f.shock_viscosity = values.text("fluid.shock_viscosity");
   f.bottom = (scene.ice ? scene.ice->lower_face : f.waterline) - values.number("water.depth");
   f.top = (scene.ice ? scene.ice->lower_face + scene.ice->thickness : f.waterline) + values.number("air.height");
   if (v) {

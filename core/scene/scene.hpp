@@ -93,6 +93,11 @@ struct Tube {
   TubeState left, right;
 };
 
+/// A column of water at x = 0 in a tank, one cell thick along y, that is let go at once.
+struct Dam {
+  double length = 0, height = 0;  ///< m, of the column; the tank's are those of the fluid
+};
+
 struct Fluid {
   double length = 0, width = 0;     ///< m, lateral extent of the full domain (x, y)
   double bottom = 0, top = 0;       ///< m, z
@@ -102,6 +107,8 @@ struct Fluid {
   double vapour_pressure = 0;       ///< Pa, absolute; lower bound of the pressure of water
   std::string start;                ///< "potential_flow" or "impulsive"
   std::string outer_boundary;       ///< "non_reflecting" or "wall"
+  std::string shock_viscosity;      ///< "limited" or "reference"
+  std::optional<Dam> dam;           ///< then the fluid is a tank with walls, x from 0 to length, z from 0 to top
   std::optional<Tube> tube;         ///< then the fluid is a one-dimensional tube and nothing else above holds
 };
 

@@ -65,12 +65,19 @@ void members(Part& p, Visit&& visit) {
 }
 
 template <class Part, class Visit>
+requires std::is_same_v<std::remove_const_t<Part>, Dam>
+void members(Part& p, Visit&& visit) {
+  visit("length", p.length), visit("height", p.height);
+}
+
+template <class Part, class Visit>
 requires std::is_same_v<std::remove_const_t<Part>, Fluid>
 void members(Part& p, Visit&& visit) {
   visit("length", p.length), visit("width", p.width), visit("bottom", p.bottom), visit("top", p.top);
   visit("waterline", p.waterline), visit("water", p.water), visit("air", p.air);
   visit("atmospheric_pressure", p.atmospheric_pressure), visit("vapour_pressure", p.vapour_pressure);
-  visit("start", p.start), visit("outer_boundary", p.outer_boundary), visit("tube", p.tube);
+  visit("start", p.start), visit("outer_boundary", p.outer_boundary);
+  visit("shock_viscosity", p.shock_viscosity), visit("dam", p.dam), visit("tube", p.tube);
 }
 
 template <class Part, class Visit>

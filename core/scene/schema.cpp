@@ -54,7 +54,7 @@ std::vector<KeyRule> general_rules() {
   return {
       text("title", "the case's name", "one line about the scene"),
       choice("symmetry", {"auto", "full", "half", "quarter"}, "auto",
-             "modelled part: half is y >= 0, quarter x >= 0 and y >= 0; auto: quarter (a tube: full)"),
+             "modelled part: half is y >= 0, quarter x >= 0 and y >= 0; auto: quarter (a tube or a dam: full)"),
       choice("run.end", {"auto", "ice_passed", "exited", "time"}, "auto",
              "what ends the run before `end_time`; auto: ice_passed with vehicle and ice, exited with a vehicle alone, "
              "else time"),
@@ -137,6 +137,14 @@ std::vector<KeyRule> fluid_rules() {
              "state of the water around the moving vehicle"),
       choice("fluid.outer_boundary", {"non_reflecting", "wall"}, "non_reflecting",
              "sides, bottom and top of the domain"),
+      choice("fluid.shock_viscosity", {"limited", "reference"}, "limited",
+             "away from solids: only in compression that is not smooth, or in all compression (0.06 linear, 1.5 "
+             "quadratic); beside solids always the latter"),
+      positive("dam.length", dim::length, "required",
+               "of the column of water along x; a scene with [dam] has [water], [air] and no solid"),
+      positive("dam.height", dim::length, "required", "of the column"),
+      positive("dam.tank_length", dim::length, "required", "of the tank that it stands at one end of"),
+      positive("dam.tank_height", dim::length, "auto", "of the tank; auto: 1.25 times the column's"),
       positive("tube.length", dim::length, "required", "along x; a scene with [tube] holds nothing but the tube"),
       positive("tube.diaphragm", dim::length, "auto", "x of the diaphragm; auto: the middle"),
   };

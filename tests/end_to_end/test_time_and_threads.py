@@ -137,7 +137,8 @@ class Flight(unittest.TestCase):
 class Alone(unittest.TestCase):
     def test_solvers_alone_leave_a_whole_summary(self):
         for scene, end, keys in (("beam_bending", "run.end_time=0.05 ms", ("peak_load", "energy_error", "elements")),
-                                 ("shock_tube", "run.end_time=0.1 ms", ("density_error", "mass_error", "cells"))):
+                                 ("shock_tube", "run.end_time=0.1 ms", ("density_error", "mass_error", "cells")),
+                                 ("dam_break", "run.end_time=2 ms", ("energy_error", "mass_error", "cells"))):
             with scratch() as folder:
                 summary = summary_of(polynya("run", f"cases/{scene}", "--set", end, "--out", f"{folder}/run", "--json",
                                              "--no-pictures"))

@@ -9,12 +9,13 @@ using namespace polynya::fluid::test;
 
 namespace {
 
-Fluid basin() {
+Fluid basin(int across = 8) {
   Setup setup;
   setup.gravity = 9.81;
   setup.boundary = {Boundary::wall, Boundary::non_reflecting, Boundary::wall,
                     Boundary::non_reflecting, Boundary::non_reflecting, Boundary::non_reflecting};
-  return {Grid(even_line(0, 0.016, 8), even_line(0, 0.016, 8), even_line(-0.04, 0.02, 24)), setup};
+  const auto side = even_line(0, 0.002 * across, across);
+  return {Grid(side, side, even_line(-0.04, 0.02, 24)), setup};
 }
 
 double fastest(const Fluid& fluid) {
@@ -27,12 +28,13 @@ double fastest(const Fluid& fluid) {
 
 }  // namespace
 
-TEST(Rest, WaterBelowAirStaysAtRest) {
-  Fluid fluid = basin();
+TEST(Rest, WaterBelowAirStaysAtRestForTenThousandSteps) {
+  Fluid fluid = basin(3);
   fill_hydrostatic(fluid, {}, 0.0007);
   const double dt = 0.8 * stable_step(fluid), energy = fluid.account.energy_sum();
-  for (int n = 0; n < 2000; ++n) step(fluid, dt, {});
-  EXPECT_LT(fastest(fluid), 1e-10 * 1480);
+  for (int n = 0; n < 10000; ++n) step(fluid, dt, {});
+  std::printf("at rest: %.1e m/s after 10,000 steps\n", fastest(fluid));
+  EXPECT_LT(fastest(fluid), 1e-10 * 340);  // of the smaller sound speed, that of air
   EXPECT_NEAR(fluid.account.energy_sum(), energy, 1e-12 * energy);
 }
 

@@ -5,7 +5,7 @@ namespace polynya::scene {
 namespace {
 
 TEST(Effects, EveryEffectIsDecidedWithAReason) {
-  for (const std::string name : {"water_exit", "vehicle_drop", "beam_bending", "shock_tube"}) {
+  for (const std::string name : {"water_exit", "vehicle_drop", "beam_bending", "shock_tube", "dam_break"}) {
     const Scene scene = resolve(case_folder(name));
     for (const auto& effect : effect_names()) {
       EXPECT_EQ(scene.effects.at(effect).requested, "auto") << name << ' ' << effect;

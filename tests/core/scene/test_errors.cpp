@@ -80,12 +80,34 @@ TEST(SceneErrors, ImpossibleValuesSayWhatIsAllowed) {
 TEST(SceneErrors, PartsThatCannotStandTogetherAreNamed) {
   expect_message(message_of(scene_file("[water]\n")), {":1: ", "add [air]"});
   expect_message(message_of(scene_file("[tube]\n[ice]\n")), {":2: ", "[ice] cannot stand beside [tube]"});
+  expect_message(message_of(scene_file("[tube]\n[fluid]\nlength = 1.0\n")),
+                 {":3: ", "fluid.length cannot stand beside [tube]"});
+  expect_message(message_of(scene_file("[dam]\nlength = 1.0\n")), {":1: ", "[dam] needs [water] and [air]"});
+  expect_message(message_of(scene_file("[dam]\n[water]\ndepth = 1.0\n[air]\n")),
+                 {":3: ", "water.depth cannot stand beside [dam]"});
+  expect_message(message_of(case_folder("dam_break"), {.level = {}, .settings = {"dam.height=1 m"}}),
+                 {"dam.height", "must be below dam.tank_height"});
   expect_message(message_of(scene_file("")), {"an empty scene"});
 }
 
 TEST(SceneErrors, ARequiredKeyIsAskedFor) {
   expect_message(message_of(scene_file("[ice]\n[ice.bending]\nload_span = 0.1\n")),
                  {":2: ice.bending.support_span: missing; must be a length"});
+}
+
+TEST(SceneErrors, ShockViscosityNeedsAFluidAndOneOfItsTwoForms) {
+  expect_message(
+      message_of(case_folder("vehicle_drop"), {.level = {}, .settings = {"fluid.shock_viscosity=reference"}}),
+      {"[fluid] needs [water] and [air]"});
+  expect_message(message_of_settings({"fluid.shock_viscosity=0.06"}), {"one of limited, reference"});
+}
+
+TEST(SceneErrors, ShockViscosityOfATubeAndOfWaterAndAirIsThatAskedFor) {
+  for (const std::string name : {"shock_tube", "water_exit"}) {
+    EXPECT_EQ(resolve(case_folder(name)).fluid->shock_viscosity, "limited") << name;
+    const Scene asked = resolve(case_folder(name), {.level = {}, .settings = {"fluid.shock_viscosity=reference"}});
+    EXPECT_EQ(asked.fluid->shock_viscosity, "reference") << name;
+  }
 }
 
 }  // namespace

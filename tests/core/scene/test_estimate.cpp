@@ -43,7 +43,7 @@ TEST(Estimate, SaysWhatDoesNotFit) {
 }
 
 TEST(Estimate, EveryCaseCostsSomethingFinite) {
-  for (const std::string name : {"water_exit", "vehicle_drop", "beam_bending", "shock_tube"}) {
+  for (const std::string name : {"water_exit", "vehicle_drop", "beam_bending", "shock_tube", "dam_break"}) {
     const Estimate e = estimate(resolve(case_folder(name)), plenty);
     EXPECT_TRUE(std::isfinite(e.wall_time) && e.wall_time > 0) << name;
     EXPECT_GT(e.windows, 0) << name;

@@ -104,6 +104,13 @@ TEST(FluidGridLines, OfATubeAreUniformWithANodeAtTheDiaphragm) {
   EXPECT_EQ(lines.cells(), 200u);
 }
 
+TEST(FluidGridLines, OfADamAreUniformWithNodesAtTheColumnsFaces) {
+  const auto lines = fluid_grid_lines(resolve(case_folder("dam_break")));
+  EXPECT_TRUE(is_node(lines.x, 0.05715));
+  EXPECT_TRUE(is_node(lines.z, 0.1143));
+  EXPECT_EQ(lines.cells(), 60u * 25u);
+}
+
 TEST(IceGridLines, FillThePlateWithEqualLayers) {
   const Scene scene = base_scene();
   const auto lines = ice_grid_lines(scene);

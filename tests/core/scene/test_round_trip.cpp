@@ -4,7 +4,7 @@ namespace polynya::scene {
 namespace {
 
 TEST(ResolvedScene, SurvivesTheRoundTripBitForBit) {
-  for (const std::string name : {"water_exit", "vehicle_drop", "beam_bending", "shock_tube"}) {
+  for (const std::string name : {"water_exit", "vehicle_drop", "beam_bending", "shock_tube", "dam_break"}) {
     const auto json = to_json(resolve(case_folder(name)));
     const auto file = scene_file("").parent_path() / "scene.json";
     std::ofstream(file) << json.dump(2);
