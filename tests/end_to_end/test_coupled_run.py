@@ -55,8 +55,8 @@ class BaseScene(unittest.TestCase):
         """The fluid's own sum over its cells, by absolute pressure, against the coupler's sum over pieces of wall."""
         for body in ("vehicle", "ice"):
             column = {what: numpy.array(self.ledger[f"fluid_{what}_{body}_z"])
-                      for what in ("given", "weight", "atmosphere", "carried", "reported")}
-            by_pressure = column["given"] - column["weight"] - column["carried"] + column["atmosphere"]
+                      for what in ("given", "start", "weight", "atmosphere", "carried", "reported")}
+            by_pressure = column["given"] - column["start"] - column["weight"] - column["carried"] + column["atmosphere"]
             self.assertLess(abs(by_pressure - column["reported"]).max(), 1e-9 * abs(column["given"]).max())
 
     def index(self, name):
@@ -79,7 +79,7 @@ class BaseScene(unittest.TestCase):
             open_at_end = (1 - cells["solid_fraction"][:])[hole].mean()
             for name in cells:
                 self.assertTrue(numpy.isfinite(cells[name][:]).all(), name)
-        self.assertEqual(water_in_hole[0], 0)
+        self.assertLess(water_in_hole[0], 0.01)  # kg/m^3: a film of nanometres under ice that yields to the start's pressure
         self.assertGreater(max(water_in_hole), 100)  # kg/m^3: air has 1.2, water that fills the cell 1000
         self.assertGreater(open_at_end, 0.3)
 
@@ -121,9 +121,9 @@ class WithoutIce(unittest.TestCase):
             cls.columns = series(f"{folder}/run/series/coupler.csv")
 
     def test_start_transient_stays_below_the_stagnation_pressure_in_every_cell_of_the_wall(self):
-        # Two diameters at the speed of sound: later the stress wave of the hull, loaded at its base, reaches the nose.
-        start = [p for t, p in zip(self.columns["time"], self.columns["wall_pressure"]) if t < 2 * 0.010 / 1480]
-        self.assertGreater(len(start), 30)
+        # Until a stress wave has run along the hull and back: what the start sends out, in water and hull, has passed.
+        start = [p for t, p in zip(self.columns["time"], self.columns["wall_pressure"]) if t < 2 * 0.100 / 5052]
+        self.assertGreater(len(start), 100)
         self.assertLess(max(start), 1.2 * stagnation_pressure)
         self.assertGreater(max(start), 0.5 * stagnation_pressure)
 
