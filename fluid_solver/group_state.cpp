@@ -179,7 +179,11 @@ void set_group_donors(Fluid& fluid, double dt) {
     if (bears_differences(state)) {
       member_strains(fluid, g, state.volume, strains);
       double* compression = fluid.own_compression.data() + fluid.groups.first[g];
-      for (const double strain : strains) *compression++ -= dt * strain - change / state.volume;
+      // As densities go, so that a member which is nearly void does not come to less than nothing.
+      for (const double strain : strains) {
+        *compression = (1.0 + *compression) * (1.0 + change / state.volume) / (1.0 + dt * strain) - 1.0;
+        ++compression;
+      }
     }
     const int materials = (state.content.mass[0] > 0 ? 1 : 0) | (state.content.mass[1] > 0 ? 2 : 0);
     bool root = true;

@@ -3,7 +3,10 @@
 // wall is nearly flat, it lies in or before the plane of those faces: closed faces exert no force on the node, so it
 // takes the wall's normal velocity; left alone it would meet the wall with a jolt as soon as the wall moves off the
 // plane. Beside an oblique wall the plane of faces closes cell by cell while the water moves outwards with the wall: to
-// stop it there would be a blow. The difference of momentum goes to the body.
+// stop it there would be a blow. The difference of momentum goes to the body, and reaches it a span later. A node of
+// mass m_f (per area) that followed a wall of mass m_s at once would make the pair swing up by sqrt(m_f / m_s) per span
+// where the wall is lighter; following by the share b it is sqrt(b m_f / m_s), the root of x^2 - (1 - b) x + b m_f /
+// m_s.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -56,11 +59,11 @@ std::optional<MeanWall> mean_wall(const WallsAround& around) {
   return mean;
 }
 
-/// Sets the component along the axis so that the node does not move through the wall.
-void follow_wall(const MeanWall& wall, int axis, std::array<double, 3>& velocity) {
+/// Moves the component along the axis by a share `follow` to where the node does not move through the wall.
+void follow_wall(const MeanWall& wall, int axis, double follow, std::array<double, 3>& velocity) {
   double along = 0;
   for (int d = 0; d < 3; ++d) along += (velocity[d] - wall.velocity[d]) * wall.normal[d];
-  velocity[axis] -= along / wall.normal[axis];
+  velocity[axis] -= follow * along / wall.normal[axis];
 }
 
 /// Velocity of solid around a node: of its walls, or of the first piece there is (of a cell inside solid, where no area
@@ -138,7 +141,7 @@ struct Change {
 };
 
 /// What has to change at a node, if anything.
-std::optional<Change> change_of(const Fluid& fluid, std::ptrdiff_t n) {
+std::optional<Change> change_of(const Fluid& fluid, std::ptrdiff_t n, double follow) {
   const bool hidden = fluid.after.node_fraction[n] < covered;
   const std::array<bool, 3> flat = solid_on_one_side(fluid, n);
   if (!hidden && !flat[0] && !flat[1] && !flat[2]) return {};
@@ -152,7 +155,7 @@ std::optional<Change> change_of(const Fluid& fluid, std::ptrdiff_t n) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!flat[axis]) continue;
     if (const auto wall = mean_wall(around); wall && std::abs(wall->normal[axis]) > nearly_flat) {
-      follow_wall(*wall, axis, change.velocity);
+      follow_wall(*wall, axis, follow, change.velocity);
       changed = true;
     }
   }
@@ -160,13 +163,13 @@ std::optional<Change> change_of(const Fluid& fluid, std::ptrdiff_t n) {
 }
 
 /// In the order of the nodes, whatever the number of threads.
-std::vector<Change> find_changes(const Fluid& fluid) {
+std::vector<Change> find_changes(const Fluid& fluid, double follow) {
   constexpr std::size_t together = 512;
   const std::vector<std::ptrdiff_t>& nodes = fluid.after.nodes();
   std::vector<std::vector<Change>> found((nodes.size() + together - 1) / together);
   compute::for_chunks(nodes.size(), together, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
-      if (const auto change = change_of(fluid, nodes[n])) found[begin / together].push_back(*change);
+      if (const auto change = change_of(fluid, nodes[n], follow)) found[begin / together].push_back(*change);
   });
   std::vector<Change> all;
   for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
@@ -175,11 +178,11 @@ std::vector<Change> find_changes(const Fluid& fluid) {
 
 }  // namespace
 
-void fix_covered_nodes(Fluid& fluid) {
+void fix_covered_nodes(Fluid& fluid, double follow) {
   fluid.wall_impulse.assign(fluid.after.walls.size(), {});
   for (std::size_t w = 0; w < fluid.after.walls.size(); ++w)
     fluid.label[fluid.after.walls[w].cell] = static_cast<std::int32_t>(w);
-  const std::vector<Change> changes = find_changes(fluid);
+  const std::vector<Change> changes = find_changes(fluid, follow);
   for (const WallPiece& wall : fluid.after.walls) fluid.label[wall.cell] = -1;
   for (const auto& [n, velocity, receiver] : changes) {
     const double mass = fluid.node_mass[n];

@@ -72,7 +72,9 @@ void limit_donors(Fluid& fluid, double dt);
 /// remap.cpp, momentum_remap.cpp, node_fix.cpp
 void remap_cells(Fluid& fluid, double dt);
 void remap_momentum(Fluid& fluid);
-void fix_covered_nodes(Fluid& fluid);
+/// Nodes at and inside solids; those before a flat wall take the share `follow` of the difference to its velocity.
+inline constexpr double follow_in_a_step = 0.4;
+void fix_covered_nodes(Fluid& fluid, double follow = follow_in_a_step);
 
 /// guard.cpp: equations of state out of their range, in what evaluate_groups left. Throws FluidError.
 void check_ranges(const Fluid& fluid);

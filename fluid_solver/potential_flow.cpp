@@ -343,9 +343,9 @@ void add_bernoulli_pressure(Fluid& fluid) {
 
 int project(Fluid& fluid) {
   // Closed faces hand no impulse to nodes in their plane, so these can be set beforehand.
-  fix_covered_nodes(fluid);
+  fix_covered_nodes(fluid, 1.0);
   const int iterations = Projection(fluid).run();
-  fix_covered_nodes(fluid);
+  fix_covered_nodes(fluid, 1.0);
   if (const BodyMotion body = body_motion(fluid); body.found) start_far_field(fluid, body.centre);
   fluid.account = {};
   return iterations;
