@@ -179,9 +179,10 @@ void set_group_donors(Fluid& fluid, double dt) {
     if (bears_differences(state)) {
       member_strains(fluid, g, state.volume, strains);
       double* compression = fluid.own_compression.data() + fluid.groups.first[g];
-      // As densities go, so that a member which is nearly void does not come to less than nothing.
+      // A member that is nearly void thins out as densities do, so that it does not come to less than nothing.
       for (const double strain : strains) {
-        *compression = (1.0 + *compression) * (1.0 + change / state.volume) / (1.0 + dt * strain) - 1.0;
+        const double own = dt * strain, thinner = own > 0 ? 1.0 / (1.0 + own) : 1.0 - own;
+        *compression = (1.0 + *compression) * (1.0 + change / state.volume) * thinner - 1.0;
         ++compression;
       }
     }
