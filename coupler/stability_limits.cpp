@@ -4,12 +4,13 @@
 #include <algorithm>
 
 #include "core/contact/vector3.hpp"
+#include "core/scene/estimate.hpp"
 
 namespace polynya::coupler {
 namespace {
 
-/// Mass per wetted area of every vertex, 0 for particles. Water resists the motion of a vertex by rho c sum(A n n^T): its
-/// largest eigenvalue over rho c is the area that counts, so the three faces at a corner do not add up.
+/// Mass per wetted area of every vertex, 0 for particles. Water resists the motion of a vertex by rho c sum(A n n^T):
+/// its largest eigenvalue over rho c is the area that counts, so the three faces at a corner do not add up.
 std::vector<double> vertex_areal_mass(const SolidSide& side) {
   using contact::operator-;
   std::vector<Eigen::Matrix3d> area(side.vertices(), Eigen::Matrix3d::Zero());
@@ -75,7 +76,7 @@ LightestWall lightest_wall(const Conversation& conversation, const geometry::Cut
 
 double lag_limit(const LightestWall& wall, const scene::Scene& scene) {
   const scene::MaterialCard& water = scene.material(scene.fluid->water);
-  return wall.bound / (water.values.at("density") * water.values.at("sound_speed"));
+  return wall.bound / (water.value("density") * scene::sound_speed(water, scene.fluid->atmospheric_pressure));
 }
 
 }  // namespace polynya::coupler
