@@ -8,17 +8,18 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Whether the vehicle ends the run before its time is over.
-bool vehicle_ends(const scene::Scene& scene) {
+/// Whether a vehicle that stopped ends the run: below ice it comes no further.
+bool stopping_ends(const scene::Scene& scene) {
   return scene.run.end != "time" && scene.vehicle && scene.ice;
 }
 
 /// z of the nose (m) at which the run ends.
 double last_nose_position(const scene::Scene& scene) {
-  const double upper_face = scene.ice->lower_face + scene.ice->thickness;
+  if (!scene.vehicle || !(scene.ice || scene.fluid)) return infinity;
+  const double surface = scene.ice ? scene.ice->lower_face + scene.ice->thickness : scene.fluid->waterline;
   const scene::Vehicle& vehicle = *scene.vehicle;
-  if (scene.run.end == "ice_passed") return upper_face + vehicle.diameter + vehicle.head_length;
-  if (scene.run.end == "exited") return upper_face + vehicle.length;
+  if (scene.run.end == "ice_passed") return surface + vehicle.diameter + vehicle.head_length;
+  if (scene.run.end == "exited") return surface + vehicle.length;
   return infinity;
 }
 
@@ -27,15 +28,13 @@ double last_nose_position(const scene::Scene& scene) {
 std::string end_reason(const scene::Scene& scene, double time, double nose, double speed) {
   // Half a nanosecond: far below any step, far above the rounding of a sum of steps.
   if (time >= scene.run.end_time - 5e-10) return "time";
-  if (!vehicle_ends(scene)) return {};
-  if (speed <= 0) return "vehicle_stopped";
+  if (stopping_ends(scene) && speed <= 0) return "vehicle_stopped";
   return nose >= last_nose_position(scene) ? scene.run.end : std::string{};
 }
 
 double time_to_end(const scene::Scene& scene, double time, double nose, double speed) {
   double left = scene.run.end_time - time;
-  if (!vehicle_ends(scene)) return left;
-  if (scene.run.gravity > 0) left = std::min(left, std::max(0.0, speed) / scene.run.gravity);
+  if (stopping_ends(scene) && scene.run.gravity > 0) left = std::min(left, std::max(0.0, speed) / scene.run.gravity);
   if (speed > 0) left = std::min(left, (last_nose_position(scene) - nose) / speed);
   return std::max(0.0, left);
 }

@@ -9,7 +9,9 @@ namespace polynya::coupler {
 /// centre-of-mass speed (m/s).
 ///   "time"        latest end of the scene
 ///   "ice_passed"  the cylinder's first section is one diameter above the ice's upper face, or the vehicle stopped
-///   "exited"      the tail is above the ice's upper face, or the vehicle stopped
+///   "exited"      the tail is above the ice's upper face, or the vehicle stopped; without ice: the tail is above the
+///                 waterline
+/// A vehicle without ice and water ends by time alone.
 std::string end_reason(const scene::Scene& scene, double time, double nose, double speed);
 
 /// Time (s) until that can change when nothing but weight acts on the vehicle.

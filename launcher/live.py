@@ -85,12 +85,14 @@ def finished_share(scene: dict, row: dict[str, float], first: dict[str, float]) 
 
 
 def time_to_position(scene: dict, row: dict[str, float], first: dict[str, float]) -> float:
-    """Time until the vehicle, at its present speed, has passed or left the ice; infinite if that ends nothing."""
-    vehicle, ice, end = scene.get("vehicle"), scene.get("ice"), (scene.get("run") or {}).get("end")
+    """Time until the vehicle, at its present speed, has passed the ice or left it or the water; infinite if that ends nothing."""
+    vehicle, ice, water = scene.get("vehicle"), scene.get("ice"), scene.get("fluid")
+    end = (scene.get("run") or {}).get("end")
     speed = row.get("vehicle_speed", 0.0)
-    if not vehicle or not ice or end not in ("ice_passed", "exited") or speed <= 0 or "vehicle_position" not in first:
+    if not vehicle or not (ice or water) or end not in ("ice_passed", "exited") or speed <= 0 or "vehicle_position" not in first:
         return math.inf
     behind = vehicle["length"] if end == "exited" else vehicle["head_length"] + vehicle["diameter"]
-    way = ice["lower_face"] + ice["thickness"] + behind - vehicle["nose_position"]
+    surface = ice["lower_face"] + ice["thickness"] if ice else water["waterline"]
+    way = surface + behind - vehicle["nose_position"]
     done = row["vehicle_position"] - first["vehicle_position"] + vehicle["speed"] * first["time"]
     return max(0.0, way - done) / speed

@@ -15,9 +15,9 @@ constexpr int cells_above_nose = 2;
 constexpr int cells_below_tail = 6;
 constexpr double largest_cells_across = 20000;  // per direction: more is a slip of units
 
-std::string default_end(const Scene& scene) {
+std::string default_end(const Values& values, const Scene& scene) {
   if (!scene.vehicle) return "time";
-  return scene.ice ? "ice_passed" : "exited";
+  return scene.ice ? "ice_passed" : values.has("water") ? "exited" : "time";
 }
 
 /// Distance (m) the nose travels until the expected end.
@@ -41,7 +41,8 @@ void check_end(const Values& values, const Scene& scene) {
   const auto& end = scene.run.end;
   if (end == "ice_passed" && !(scene.vehicle && scene.ice))
     values.fail("run.end", "needs [vehicle] and [ice]; allowed here is time");
-  if (end == "exited" && !scene.vehicle) values.fail("run.end", "needs [vehicle]; allowed here is time");
+  if (end == "exited" && !(scene.vehicle && (scene.ice || values.has("water"))))
+    values.fail("run.end", "needs [vehicle] with [ice] or [water]; allowed here is time");
 }
 
 }  // namespace
@@ -58,7 +59,7 @@ double waterline(const Values& values, const Scene& scene) {
 void read_run(const Values& values, Scene& scene) {
   auto& run = scene.run;
   run.end = values.text("run.end");
-  if (run.end == "auto") run.end = default_end(scene);
+  if (run.end == "auto") run.end = default_end(values, scene);
   check_end(values, scene);
   run.end_time = end_time(values, scene, waterline(values, scene));
   run.frame_interval = values.number("run.frame_interval", run.end_time / frames);

@@ -56,8 +56,8 @@ std::vector<KeyRule> general_rules() {
       choice("symmetry", {"auto", "full", "half", "quarter"}, "auto",
              "modelled part: half is y >= 0, quarter x >= 0 and y >= 0; auto: quarter (a tube or a dam: full)"),
       choice("run.end", {"auto", "ice_passed", "exited", "time"}, "auto",
-             "what ends the run before `end_time`; auto: ice_passed with vehicle and ice, exited with a vehicle alone, "
-             "else time"),
+             "what ends the run before `end_time`: nose past the ice, tail above the ice (without ice: above the waterline); "
+             "auto: ice_passed with vehicle and ice, exited with a vehicle in water, else time"),
       positive("run.end_time", dim::time, "auto",
                "latest end; auto: 1.5 (gap + head + 2.6 thickness) / speed, or 1.5 times the way out of the water"),
       positive("run.frame_interval", dim::time, "auto", "between field frames; auto: a thirtieth of `end_time`"),

@@ -34,6 +34,26 @@ TEST(EndCondition, ExitedWhenTheTailIsAboveTheIce) {
   EXPECT_EQ(coupler::end_reason(scene, 0, 0.111, 40), "exited");
 }
 
+TEST(EndCondition, ExitedWithoutIceWhenTheTailIsAboveTheWaterline) {
+  scene::Scene scene = thin_ice();
+  scene.run.end = "exited";
+  scene.ice.reset();
+  scene.fluid.emplace().waterline = 0.02;
+  EXPECT_EQ(coupler::end_reason(scene, 0, 0.119, 40), "");
+  EXPECT_EQ(coupler::end_reason(scene, 0, 0.121, 40), "exited");
+  EXPECT_EQ(coupler::end_reason(scene, 0, 0.05, -1), "");  // it falls back and may rise again
+  EXPECT_NEAR(coupler::time_to_end(scene, 0, 0.1, 40), 0.02 / 40, 1e-15);
+}
+
+TEST(EndCondition, NothingButTimeEndsTheFlightOfAVehicleAlone) {
+  scene::Scene scene = thin_ice();
+  scene.run.end = "exited";
+  scene.ice.reset();
+  EXPECT_EQ(coupler::end_reason(scene, 0, 100, 40), "");
+  EXPECT_EQ(coupler::time_to_end(scene, 0, 100, 40), 1e-3);
+  EXPECT_EQ(coupler::end_reason(scene, 1e-3, 100, 40), "time");
+}
+
 TEST(EndCondition, StoppedVehicleAndLatestTimeEndEveryRun) {
   const scene::Scene scene = thin_ice();
   EXPECT_EQ(coupler::end_reason(scene, 0, 0, -0.1), "vehicle_stopped");

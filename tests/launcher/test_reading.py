@@ -60,6 +60,13 @@ class TimeLeft(unittest.TestCase):
         self.assertAlmostEqual(self.share(2.125e-4, end_time=9.0), 0.25)
         self.assertAlmostEqual(self.share(2.85e-4, end_time=9.0, end="exited"), 0.1)
 
+    def test_without_ice_follows_the_tail_to_the_waterline(self):
+        """Steady flight from 4 mm below the waterline, taken as 6 mm up, until 100 mm of vehicle are above it: 110 mm."""
+        scene = {"vehicle": invented.SCENE["vehicle"], "fluid": {"waterline": 0.006},
+                 "run": {"end_time": 9.0, "end": "exited"}}
+        rows = [{"time": t, "vehicle_speed": 40.0, "vehicle_position": -0.05 + 40.0 * t} for t in (1e-6, 2.75e-4)]
+        self.assertAlmostEqual(live.finished_share(scene, rows[1], rows[0]), 0.1)
+
     def test_follows_the_latest_end_when_that_comes_first(self):
         self.assertAlmostEqual(self.share(1e-4, end_time=4e-4), 0.25)
         self.assertAlmostEqual(self.share(1e-4, end_time=8e-4, end="time"), 0.125)

@@ -45,6 +45,12 @@ TEST(Cases, WaterWithoutIceIsAtZero) {
   EXPECT_FALSE(scene.effect("conversion"));
 }
 
+TEST(Cases, AVehicleAloneFliesForATime) {
+  EXPECT_EQ(resolve(scene_file("[run]\nend_time = \"1 ms\"\n[vehicle]\nmass = \"5 g\"\n")).run.end, "time");
+  EXPECT_NE(message_of(scene_file("[run]\nend = \"exited\"\n[vehicle]\nmass = \"5 g\"\n")).find("[ice] or [water]"),
+            std::string::npos);
+}
+
 TEST(Cases, VehicleDropHasTheGeometryOfTheBaseScene) {
   const Scene drop = resolve(case_folder("vehicle_drop")), base = base_scene();
   const auto a = to_json(drop), b = to_json(base);
