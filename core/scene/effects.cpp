@@ -5,11 +5,13 @@
 namespace polynya::scene {
 namespace {
 
-/// What `auto` decides, and whether "on" can be had: an impossible effect says why in `reason` and stays off.
+/// What `auto` decides, and whether "on" and "off" can be had: an impossible effect says why in `reason` and stays off,
+/// one that cannot be left out stays on.
 struct Decision {
   bool active;
   std::string reason;
   bool possible = true;
+  bool optional = true;
 };
 
 Decision impossible(std::string reason) {
@@ -39,6 +41,12 @@ Decision ice_failure(const Scene& scene) {
   if (!scene.ice) return impossible("the scene has no ice");
   if (scene.material(scene.ice->material).law == "elastic") return impossible("the law of the ice is elastic");
   return {true, "the law of the ice has damage"};
+}
+
+Decision interface_reconstruction(const Scene& scene) {
+  if (!scene.fluid) return impossible("the scene has no fluid");
+  return {true, "a plane parts the two materials of every cell that they share; the remap knows no other way", true,
+          false};
 }
 
 Decision cavitation(const Scene& scene) {
@@ -108,7 +116,7 @@ const std::vector<Rule>& rules() {
       {"conversion", conversion, nothing},
       {"gradient_correction", not_available, nothing},
       {"artificial_stress", not_available, nothing},
-      {"interface_reconstruction", not_available, nothing},
+      {"interface_reconstruction", interface_reconstruction, nothing},
       {"cavitation", cavitation, nothing},
       {"gravity", gravity, [](Scene& s) { s.run.gravity = 0; }},
       {"friction", friction, [](Scene& s) { s.contact.friction = 0; }},
@@ -128,7 +136,10 @@ std::string wish(const EffectRequest& request, const std::string& name) {
 }
 
 Effect settle(const std::string& name, const std::string& requested, const Decision& decision) {
-  if (requested == "on" && !decision.possible) throw ImpossibleEffect(name, decision.reason);
+  if (requested == "on" && !decision.possible)
+    throw ImpossibleEffect(name, decision.reason + "; allowed here: auto, off");
+  if (requested == "off" && !decision.optional)
+    throw ImpossibleEffect(name, decision.reason + "; allowed here: auto, on");
   if (requested == "on") return {requested, true, decision.active ? decision.reason : "asked for"};
   if (requested == "off") return {requested, false, decision.possible ? "switched off in the scene" : decision.reason};
   return {requested, decision.active, decision.reason};

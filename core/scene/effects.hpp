@@ -16,9 +16,10 @@ struct EffectRequest {
   bool has_fluid_section = false;                ///< [water] and [air], or [tube]
 };
 
-/// Thrown when an effect is requested that cannot be had; `effect` names it, what() says why.
+/// Thrown when an effect is requested that cannot be had, or shall go where it cannot; `effect` names it, what() says
+/// why and what is allowed.
 struct ImpossibleEffect : std::runtime_error {
-  ImpossibleEffect(std::string name, const std::string& why) : std::runtime_error(why), effect(std::move(name)) {}
+  ImpossibleEffect(std::string name, const std::string& what) : std::runtime_error(what), effect(std::move(name)) {}
   std::string effect;
 };
 

@@ -9,7 +9,10 @@ namespace polynya::scene {
 
 /// What one unit of work costs. Estimates, good to a factor of two; a run's report has the measured times.
 struct CostModel {
-  double fluid_cell_step = 600e-9;    ///< s of one core per cell and step
+  /// s of one core per cell and step with solids: remap, groups, cut cells, volume correction and exchange. The kernel
+  /// alone takes 131 ns (docs/verification_fluid.md); the quick base scene's fluid took some 90 s for 4,200 steps of
+  /// 51,840 cells on two busy cores.
+  double fluid_cell_step = 400e-9;
   double hexahedron_step = 150e-9;    ///< s of one core per element and step
   double window = 300e-6;             ///< s per coupling window: messages, contact search, ledger
   double cut_triangle = 8e-3 / 5000;  ///< s of one core per triangle and span: overlap of surface and grid

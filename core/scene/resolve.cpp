@@ -119,7 +119,7 @@ void check_sections(const Document& document, const Values& values) {
   if (values.has("fluid") && !values.has("water"))
     throw SceneError(document.tables.at("fluid") + ": [fluid] needs [water] and [air]");
   if (!values.has("vehicle") && !values.has("ice") && !values.has("water"))
-    throw SceneError(file + ": an empty scene; it needs [vehicle], [ice], [water] with [air], or [tube]");
+    throw SceneError(file + ": an empty scene; it needs [vehicle], [ice], [water] with [air], [water] with [air] and [dam], or [tube]");
 }
 
 Symmetry symmetry_of(const Values& values, const std::string& wish_for_effect) {
@@ -211,7 +211,7 @@ Scene resolve(const std::filesystem::path& path, const ResolveOptions& options) 
   try {
     decide_effects(scene, request);
   } catch (const ImpossibleEffect& error) {
-    values.fail("effects." + error.effect, std::string(error.what()) + "; allowed here: auto, off");
+    values.fail("effects." + error.effect, error.what());
   }
   if (!scene.vehicle && !scene.ice && !scene.fluid)
     values.fail("effects.fluid", "without the fluid nothing is left of the scene; allowed here: auto, on");

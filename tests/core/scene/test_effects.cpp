@@ -18,19 +18,29 @@ TEST(Effects, EveryEffectIsDecidedWithAReason) {
 TEST(Effects, TheBaseSceneHasAllThatThisVersionOffers) {
   const Scene scene = base_scene();
   for (const std::string name : {"fluid", "deformable_vehicle", "ice_failure", "conversion", "cavitation", "gravity",
-                                 "friction", "non_reflecting_boundaries", "symmetry"})
+                                 "friction", "non_reflecting_boundaries", "symmetry", "interface_reconstruction"})
     EXPECT_TRUE(scene.effect(name)) << name;
 }
 
 TEST(Effects, WhatDoesNotExistYetIsOffAndCannotBeAskedFor) {
-  for (const std::string name :
-       {"gradient_correction", "artificial_stress", "interface_reconstruction", "debris_drag", "sleeping"}) {
+  for (const std::string name : {"gradient_correction", "artificial_stress", "debris_drag", "sleeping"}) {
     EXPECT_FALSE(base_scene().effect(name));
     EXPECT_EQ(base_scene().effects.at(name).reason, "not available in this version");
     EXPECT_FALSE(base_scene({"effects." + name + "=off"}).effect(name));
     EXPECT_NE(message_of_settings({"effects." + name + "=on"}).find("not available in this version"),
               std::string::npos);
   }
+}
+
+TEST(Effects, PlanesBetweenWaterAndAirBelongToEveryFluid) {
+  for (const std::string name : {"water_exit", "vehicle_in_water", "dam_break", "shock_tube"})
+    EXPECT_TRUE(resolve(case_folder(name)).effect("interface_reconstruction")) << name;
+  EXPECT_FALSE(resolve(case_folder("vehicle_drop")).effect("interface_reconstruction"));
+  EXPECT_TRUE(base_scene({"effects.interface_reconstruction=on"}).effect("interface_reconstruction"));
+  const std::string answer = message_of_settings({"effects.interface_reconstruction=off"});
+  EXPECT_NE(answer.find("effects.interface_reconstruction"), std::string::npos) << answer;
+  EXPECT_NE(answer.find("allowed here: auto, on"), std::string::npos) << answer;
+  EXPECT_FALSE(base_scene({"effects.fluid=off"}).effect("interface_reconstruction"));
 }
 
 TEST(Effects, DisplacementByDebrisIsThereForThoseWhoAsk) {
