@@ -13,11 +13,18 @@ SECTION = "4"
 LONGEST_STEP = 1e-6                   # s, for bodies that are stable with any step
 STEPS = (0.5, 0.45, 0.49, 0.5, 0.47)  # of the stable step, window after window
 PUSH = 1e7                            # m/s^2, what the loads would give to the loaded vertices alone
+START_PUSH = 1e5                      # m/s^2, the same at time 0: what a solid may settle under is small
 PUSHED = range(1, 4)                  # windows whose loads push
 CRUSH_SPEED = 1000.0                  # m/s that loads give to one vertex of ice that may break
 MOST_WINDOWS = 60                     # until it breaks
 BODIES = {"structure": "vehicle", "ice": "ice"}
-NO_LOADS = {"load.vertices": numpy.zeros(0, "i8"), "load.forces": numpy.zeros((0, 3))}
+
+
+def load_arrays(forces: dict[int, float]) -> dict[str, numpy.ndarray]:
+    """The arrays of `begin` and `loads`: vertical forces (N) on vertices."""
+    values = numpy.zeros((len(forces), 3))
+    values[:, 2] = list(forces.values())
+    return {"load.vertices": numpy.array(list(forces), "i8"), "load.forces": values}
 
 
 class Solid:
@@ -43,7 +50,9 @@ class Solid:
         self.account = Account(ready, self.findings)
         self.talk.expect_silence(greeting.BEFORE_ANSWER, SECTION, "'begin'")
         self.step = self.next_step()
-        self.talk.send("begin", {"time": 0.0, "step": self.step}, NO_LOADS)
+        forces = self.push(START_PUSH)
+        self.unsettled = 0.5 * self.step * sum(forces.values())
+        self.talk.send("begin", {"time": 0.0, "step": self.step}, load_arrays(forces), remark="with loads")
 
     def next_step(self) -> float:
         return STEPS[self.window % len(STEPS)] * min(self.stable, LONGEST_STEP)
@@ -70,41 +79,39 @@ class Solid:
         last, now = self.account.values, self.account.read(message)
         impulse, self.unsettled = self.unsettled, 0.0
         self.impulses += abs(impulse)
-        said = "(dt + dt')/2 times the sum of the forces"
+        said = "(dt + dt')/2 times the sum of the forces" if self.window else "dt/2 times the sum of the forces"
+        given = f"the loads of window {self.window - 1} give" if self.window else "the loads of 'begin' give"
         if "momentum_z" in now:
             others = sum(now.get(name, 0.0) - last.get(name, 0.0) for name in ("boundary_impulse_z", "gravity_impulse_z"))
             change = now["momentum_z"] - last["momentum_z"] - others
             allowed = 1e-9 * self.impulses + 1e-13 * abs(now["momentum_z"])
             if not abs(change - impulse) <= allowed:
-                self.findings.add(SECTION, "reaction", f"the loads of window {self.window - 1} give the impulse "
-                                  f"{impulse:.9g} N s, {said}; 'momentum_z' changes by {change:.9g} kg m/s")
+                self.findings.add(SECTION, "reaction", f"{given} the impulse {impulse:.9g} N s, {said}; "
+                                  f"'momentum_z' changes by {change:.9g} kg m/s")
         elif impulse != 0 and not self.changed:
             gained = float(self.surface.masses @ (self.surface.velocities - before.velocities)[:, 2])
             if not -1e-9 <= gained / impulse <= 1 + 1e-9 or gained == 0:
-                self.findings.add(SECTION, "reaction", f"the loads of window {self.window - 1} give the impulse "
-                                  f"{impulse:.9g} N s, {said}; the momentum of the surface changes by {gained:.9g} kg m/s")
+                self.findings.add(SECTION, "reaction", f"{given} the impulse {impulse:.9g} N s, {said}; the "
+                                  f"momentum of the surface changes by {gained:.9g} kg m/s")
 
     def answer(self, forces: dict[int, float] | None = None, *, finish: bool = False, frame: int = -1,
                remark: str = "", odd_fields: bool = False, odd_arrays: bool = False) -> None:
         """`loads` of this window: vertical forces (N) on vertices."""
-        forces = forces or {}
-        values = numpy.zeros((len(forces), 3))
-        values[:, 2] = list(forces.values())
-        arrays = {"load.vertices": numpy.array(list(forces), "i8"), "load.forces": values}
+        arrays = load_arrays(forces or {})
         dt, self.window = self.step, self.window + 1
         self.step = self.next_step()
-        self.unsettled = 0.5 * (dt + self.step) * float(values[:, 2].sum())
+        self.unsettled = 0.5 * (dt + self.step) * float(arrays["load.forces"][:, 2].sum())
         fields = {"window": self.window - 1, "next_step": self.step, "finish": finish, "frame": frame}
         if odd_fields:
             fields["conform_remark"] = {"unknown": ["fields", "are", "ignored"]}
         self.talk.send("loads", fields, greeting.strange(arrays) if odd_arrays else arrays,
                        remark=f"of window {self.window - 1}{remark}")
 
-    def push(self) -> dict[int, float]:
+    def push(self, push: float = PUSH) -> dict[int, float]:
         """The highest node is pressed down, the lowest one up with half of that."""
         z = numpy.where(self.surface.radius > 0, numpy.nan, self.surface.positions[:, 2])
         top, bottom = int(numpy.nanargmax(z)), int(numpy.nanargmin(z))
-        return {bottom: 0.5 * PUSH * float(self.surface.masses[bottom]), top: -PUSH * float(self.surface.masses[top])}
+        return {bottom: 0.5 * push * float(self.surface.masses[bottom]), top: -push * float(self.surface.masses[top])}
 
     def crush(self) -> None:
         """Where ice may break, drives one vertex into it until the topology changes, if it ever does."""

@@ -111,8 +111,18 @@ def play_solid(coupler):
 
     coupler.send("ready", motion("ready") + topology, role="solid", body="ice" if seeded("body") else "vehicle",
                  stable_step=0.0 if seeded("stable_step") else STEP, account=names)
-    begin, _ = coupler.receive("begin")
+    begin, arrays = coupler.receive("begin")
     dt, window, finish = begin["step"], 0, False
+
+    def accelerate(arrays, acting):
+        (count,), vertices = arrays["load.vertices"]
+        forces = struct.unpack(f"<{3 * count}d", arrays["load.forces"][1])
+        for n, i in enumerate(struct.unpack(f"<{count}q", vertices)):
+            for c in range(3):
+                v[i][c] += acting * forces[3 * n + c] / MASS
+
+    if not seeded("deaf_at_start"):
+        accelerate(arrays, 0.5 * dt)
     while not finish:
         x = [tuple(p + dt * u for p, u in zip(*pair)) for pair in zip(x, v)]
         if seeded("jump") and window == 2:
@@ -128,12 +138,8 @@ def play_solid(coupler):
             raise Leave(3, "out of licences")
         if seeded("goes_mute") and window == 1:
             time.sleep(100)
-        (count,), vertices = arrays["load.vertices"]
-        forces = struct.unpack(f"<{3 * count}d", arrays["load.forces"][1])
         acting = 0.5 * (dt + loads["next_step"]) if not seeded("whole_step") else dt
-        for n, i in enumerate(struct.unpack(f"<{count}q", vertices)):
-            for c in range(3):
-                v[i][c] += (-1 if seeded("wrong_sign") else 1) * acting * forces[3 * n + c] / MASS
+        accelerate(arrays, -acting if seeded("wrong_sign") else acting)
         dt, finish, window = loads["next_step"], loads["finish"], window + 1
         finish = finish and not seeded("goes_on")
 

@@ -38,6 +38,7 @@ SOLID_ERRORS = {
     "clock": (WHOLE, "4", "'surface' of window 3: the field 'time' is"),
     "jump": (WHOLE, "4", "'surface' of window 2: vertex 0 is 1e-09 m away from where its velocity carries it"),
     "topology": (WHOLE, "4", "'surface' lacks the array 'surface.ids'"),
+    "deaf_at_start": (WHOLE, "4", "the loads of 'begin' give the impulse"),
     "wrong_sign": (WHOLE, "4", "the loads of window 1 give the impulse"),
     "whole_step": (WHOLE, "4", "(dt + dt')/2 times the sum of the forces; 'momentum_z' changes by"),
     "does_not_wait": (WHOLE, "4", "sent 'surface' without waiting for 'loads'"),
