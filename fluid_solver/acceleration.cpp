@@ -1,7 +1,6 @@
 // New velocities of nodes: the predicted pressure by the adjoint of the face average, weight as the faces carry it, and
 // a viscosity against hourglass modes: the part of a full cell's eight corner velocities that no linear field can be.
-// That viscosity scales with density times (0.002 c + 0.1 |u|): with density times c it would inflate the added mass
-// (OVERLAP).
+// That viscosity scales with density times (0.002 c + 0.1 |u|): with density times c it would inflate the added mass.
 #include <algorithm>
 
 #include "fluid_solver/phases.hpp"

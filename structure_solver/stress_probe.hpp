@@ -23,7 +23,6 @@ class StressProbe {
   double head_average(const continuum::ExplicitSolid& solid) const;                         ///< Pa
   double head_maximum(const continuum::ExplicitSolid& solid) const;                         ///< Pa
   std::array<double, station_count> stations(const continuum::ExplicitSolid& solid) const;  ///< Pa
-  std::size_t head_elements() const { return head_.size(); }
 
  private:
   std::vector<std::int32_t> head_;

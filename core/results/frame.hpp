@@ -14,7 +14,7 @@ struct FieldArray {
 };
 
 /// Types of cells, numbered as VTK numbers them.
-enum class CellType : std::uint8_t { vertex = 1, triangle = 5, quadrilateral = 9, hexahedron = 12 };
+enum class CellType : std::uint8_t { vertex = 1, triangle = 5, hexahedron = 12 };
 
 /// An unstructured grid with fields, in the layout of the VTKHDF format.
 struct UnstructuredFields {
