@@ -24,9 +24,11 @@ if(POLYNYA_NATIVE)
 endif()
 # Contraction to fused multiply-add is kept on; reassociation (-ffast-math) never.
 if(POLYNYA_SANITIZE)
-  # Instrumented code misleads gcc's search for uninitialised variables (in CGAL's headers, for one).
+  # Instrumented code misleads gcc's search for uninitialised variables (in CGAL's headers, for one) and for operators
+  # new and delete that do not match (where a test replaces both).
   target_compile_options(polynya_settings INTERFACE
-    -fsanitize=${POLYNYA_SANITIZE} -fno-omit-frame-pointer -Wno-maybe-uninitialized)
+    -fsanitize=${POLYNYA_SANITIZE} -fno-omit-frame-pointer -Wno-maybe-uninitialized
+    -Wno-mismatched-new-delete)
   target_link_options(polynya_settings INTERFACE -fsanitize=${POLYNYA_SANITIZE})
 endif()
 
