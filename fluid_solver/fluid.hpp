@@ -86,7 +86,6 @@ struct Fluid {
   double time = 0;
   long steps = 0;
   int correction_iterations = 0;  ///< of the last step's volume correction
-  long limited_donors = 0;        ///< cells and groups so far that were asked for more than they held
 
   // Valid from the beginning of a step; kept for output and for the loads on solids.
   std::vector<double> pressure;                                    ///< absolute, at the centre of the whole cell, Pa

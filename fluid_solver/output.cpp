@@ -166,7 +166,6 @@ nlohmann::json Output::summary(const Fluid& fluid) const {
   nlohmann::json s;
   s["cells"] = fluid.grid.cells();
   s["steps"] = fluid.steps;
-  s["limited_donors"] = fluid.limited_donors;
   s["smallest_step"] = fluid.steps > 0 ? smallest_step_ : 0.0;
   s["time"] = fluid.time;
   double start = 0, change = 0, hidden = 0;

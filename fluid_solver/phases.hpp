@@ -66,9 +66,6 @@ void mean_face_rates(Fluid& fluid);
 /// fluid.cpp
 void update_node_mass(Fluid& fluid);
 
-/// donor_limit.cpp: no cell that solids cut, and no group, gives more than it holds.
-void limit_donors(Fluid& fluid, double dt);
-
 /// remap.cpp, momentum_remap.cpp, node_fix.cpp
 void remap_cells(Fluid& fluid, double dt);
 void remap_momentum(Fluid& fluid);

@@ -71,7 +71,6 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
   {
     const auto lap = fluid.watch.lap("remap");
     apply_to_faces(fluid, correction, dt);
-    limit_donors(fluid, dt);
     remap_cells(fluid, dt);
     {
       const auto inner = fluid.watch.lap("boundaries");

@@ -81,6 +81,8 @@ TEST(Equilibrium, LoadsThatDoNotBalanceAccelerateTheBodyAsAWhole) {
   const Account start = vehicle.body->account();
   const Swing swing = swing_under(vehicle, load, 400);
   ASSERT_GT(std::abs(swing.impulse), 1e-6);
+  // What the start's damping takes is in the account.
+  EXPECT_NEAR(vehicle.body->account().balance(), start.balance(), 1e-12 * start.kinetic);
   EXPECT_NEAR(vehicle.body->account().momentum[2] - start.momentum[2] -
                   (vehicle.body->account().gravity_impulse - start.gravity_impulse),
               swing.impulse, 1e-9 * std::abs(start.momentum[2]));
