@@ -66,6 +66,53 @@ Vector3 point_on(const Corners& x, const Vector3& w) {
   return w[0] * x.a + w[1] * x.b + w[2] * x.c;
 }
 
+/// A triangle and the point of it that is nearest to the contact's point.
+struct Footing {
+  std::size_t triangle;
+  ClosestPoint foot;
+};
+
+ClosestPoint foot_on(const Body& surface, std::size_t triangle, const Vector3& p) {
+  const Corners x = corners_of(surface, triangle);
+  return closest_point_on_triangle(p, x.a, x.b, x.c);
+}
+
+/// Walks over the patch from triangle to triangle, downhill in distance, from where the point stood last.
+Footing nearest_footing(const Body& surface, const SurfaceTopology& topology, const Exclusion& exclusion,
+                        std::size_t point, std::size_t start, const Vector3& p) {
+  Footing at{start, foot_on(surface, start, p)};
+  for (int step = 0; step < longest_walk; ++step) {
+    const std::size_t from = at.triangle;
+    for (std::int32_t k = topology.ring_start[from]; k < topology.ring_start[from + 1]; ++k) {
+      const auto t = static_cast<std::size_t>(topology.ring[static_cast<std::size_t>(k)]);
+      if (t == from || (exclusion.any() && exclusion.excludes(surface, topology, point, t))) continue;
+      const ClosestPoint other = foot_on(surface, t, p);
+      const double least = at.foot.squared_distance;
+      if (other.squared_distance < least || (other.squared_distance == least && t < at.triangle)) at = {t, other};
+    }
+    if (at.triangle == from) break;
+  }
+  const std::size_t best = best_at_rim(surface, topology, at.triangle, at.foot, p);
+  return best == at.triangle ? at : Footing{best, foot_on(surface, best, p)};
+}
+
+/// Stretch of the tangential spring across the direction of the force.
+void set_slip(const Body& surface, const PairState& state, const Footing& at, const Vector3& p, Touch& touch) {
+  const auto anchored = static_cast<std::size_t>(state.anchor);
+  const Vector3 stretch = p - point_on(corners_of(surface, anchored), state.anchor_weights);
+  const Vector3 normal = face_normal(surface, anchored);
+  touch.slip = tangential(stretch, touch.push);
+  touch.turned = anchored != at.triangle && state.on_face && at.foot.feature == Feature::face &&
+                 dot(normal, face_normal(surface, at.triangle)) < 1 - 1e-12;
+  if (!touch.turned) return;
+  // From face to face the force turns at once, around an edge with the point. A spring set on a face that the point
+  // has left is stretched along that face and turns with the force: seen along the new one, the depth times the angle
+  // between them would count as slip although nothing moved.
+  const Vector3 along = tangential(stretch, normal);
+  touch.slip = tangential(along, touch.push);
+  if (const double length = norm(touch.slip); length > 0) touch.slip = (norm(along) / length) * touch.slip;
+}
+
 std::uint64_t key_of(std::span<const std::int64_t> ids) {
   std::uint64_t key = 1469598103934665603u;
   for (const std::int64_t id : ids) key = (key ^ static_cast<std::uint64_t>(id)) * 1099511628211u;
@@ -143,34 +190,11 @@ bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTo
                         const Exclusion& exclusion, std::size_t point, Touch& touch) {
   PairState& state = states_[point];
   const Vector3 p = row(points.positions, point);
-  const auto foot_on = [&](std::size_t t) {
-    const Corners x = corners_of(surface, t);
-    return closest_point_on_triangle(p, x.a, x.b, x.c);
-  };
-  auto triangle = static_cast<std::size_t>(state.feature);
-  ClosestPoint foot = foot_on(triangle);
-  for (int step = 0; step < longest_walk; ++step) {
-    const std::size_t from = triangle;
-    for (std::int32_t k = topology.ring_start[from]; k < topology.ring_start[from + 1]; ++k) {
-      const auto t = static_cast<std::size_t>(topology.ring[static_cast<std::size_t>(k)]);
-      if (t == from || (exclusion.any() && exclusion.excludes(surface, topology, point, t))) continue;
-      const ClosestPoint other = foot_on(t);
-      if (other.squared_distance < foot.squared_distance ||
-          (other.squared_distance == foot.squared_distance && t < triangle)) {
-        foot = other;
-        triangle = t;
-      }
-    }
-    if (triangle == from) break;
-  }
-  if (const std::size_t best = best_at_rim(surface, topology, triangle, foot, p); best != triangle) {
-    triangle = best;
-    foot = foot_on(best);
-  }
+  const Footing at = nearest_footing(surface, topology, exclusion, point, static_cast<std::size_t>(state.feature), p);
   const Depth depth =
-      depth_at(surface, topology, settings_.mirror, triangle, foot, p, points.radii[point], state.inside);
+      depth_at(surface, topology, settings_.mirror, at.triangle, at.foot, p, points.radii[point], state.inside);
   // Caught a little beside a face, it is held without force until it is deeper than it is beside.
-  const Corners x = corners_of(surface, triangle);
+  const Corners x = corners_of(surface, at.triangle);
   const bool beside = depth.inside && depth.beyond > 0 && depth.beyond < 2 * seam * norm(x.b - x.a);
   if (!(depth.value > 0) && !beside) {
     const double dropped = state.dropped + ended(state, depth.value);
@@ -178,33 +202,18 @@ bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTo
     state.dropped = dropped;
     return false;
   }
-  state.feature = static_cast<std::int32_t>(triangle);
+  state.feature = static_cast<std::int32_t>(at.triangle);
   state.inside = depth.inside;
-  const std::int32_t* v = &surface.triangles[3 * triangle];
+  const std::int32_t* v = &surface.triangles[3 * at.triangle];
   touch = {};
   touch.swapped = settings_.swapped;
   touch.pushed = {static_cast<std::int32_t>(point), static_cast<std::int32_t>(point)};
   touch.opposed = {v[0], v[1], v[2]};
-  touch.opposed_weights = foot.weights;
+  touch.opposed_weights = at.foot.weights;
   touch.push = depth.push;
   touch.depth = std::max(0.0, depth.value);
-  if (state.anchor >= 0) {
-    const auto anchored = static_cast<std::size_t>(state.anchor);
-    const Vector3 stretch = p - point_on(corners_of(surface, anchored), state.anchor_weights);
-    const Vector3 normal = face_normal(surface, anchored);
-    touch.slip = tangential(stretch, touch.push);
-    touch.turned = anchored != triangle && state.on_face && foot.feature == Feature::face &&
-                   dot(normal, face_normal(surface, triangle)) < 1 - 1e-12;
-    if (touch.turned) {
-      // From face to face the force turns at once, around an edge with the point. A spring set on a face that the point
-      // has left is stretched along that face and turns with the force: seen along the new one, the depth times the
-      // angle between them would count as slip although nothing moved.
-      const Vector3 along = tangential(stretch, normal);
-      touch.slip = tangential(along, touch.push);
-      if (const double length = norm(touch.slip); length > 0) touch.slip = (norm(along) / length) * touch.slip;
-    }
-  }
-  state.on_face = foot.feature == Feature::face;
+  if (state.anchor >= 0) set_slip(surface, state, at, p, touch);
+  state.on_face = at.foot.feature == Feature::face;
   touch.state = &state;
   return true;
 }
