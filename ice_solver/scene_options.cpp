@@ -5,16 +5,6 @@
 #include "core/scene/graded_line.hpp"
 
 namespace polynya::ice {
-namespace {
-
-/// Without failure, ice is the elastic solid with the moduli of its card.
-continuum::Law without_failure(const continuum::Law& law) {
-  const auto* brittle = std::get_if<continuum::JohnsonHolmquist2>(&law);
-  if (!brittle) return law;
-  return continuum::Elastic{brittle->density, brittle->bulk_modulus, brittle->shear_modulus};
-}
-
-}  // namespace
 
 IceOptions options_from_scene(const scene::Scene& scene) {
   if (!scene.ice) throw std::invalid_argument("the scene has no ice: nothing to do for the ice solver");
@@ -26,7 +16,7 @@ IceOptions options_from_scene(const scene::Scene& scene) {
   IceOptions options;
   options.x = lines.x, options.y = lines.y, options.z = lines.z;
   options.law = continuum::law_from_card(card.name, card.law, card.values);
-  if (!scene.effect("ice_failure")) options.law = without_failure(options.law);
+  if (!scene.effect("ice_failure")) options.law = continuum::elastic_part(options.law);
   options.planes.x = scene.symmetry == scene::Symmetry::quarter;
   options.planes.y = scene.symmetry != scene::Symmetry::full;
   options.sides = ice.bending ? Sides::free : sides_from_name(ice.sides);

@@ -22,12 +22,12 @@ geometry::Portion portion_of(scene::Symmetry symmetry) {
   return geometry::Portion::full;
 }
 
-continuum::Elastic elastic_material(const scene::Scene& scene) {
+continuum::Law material_of(const scene::Scene& scene) {
   const scene::MaterialCard& card = scene.material(scene.vehicle->material);
-  if (card.law != "elastic")
+  if (card.law != "elastic" && card.law != "j2_plastic")
     throw std::invalid_argument("vehicle.material = \"" + scene.vehicle->material + "\" follows the law \"" + card.law +
-                                "\"; the structure solver has \"elastic\"");
-  return continuum::elastic_from_card(card.name, card.values);
+                                "\"; the structure solver has \"elastic\" and \"j2_plastic\"");
+  return continuum::law_from_card(card.name, card.law, card.values);
 }
 
 /// Volume of the material of the exact shape, m^3.
@@ -48,7 +48,8 @@ std::string in_words(const char* format, double value) {
 BuiltVehicle build_vehicle(const scene::Scene& scene) {
   if (!scene.vehicle) throw std::invalid_argument("the scene has no [vehicle]");
   const scene::Vehicle& v = *scene.vehicle;
-  continuum::Elastic material = elastic_material(scene);
+  continuum::Law material = material_of(scene);
+  const double density = continuum::density(material);
   const geometry::Meridian outline(geometry::head_shape(v.head), v.head_length, v.diameter, v.length);
   geometry::VehicleMeshOptions options;
   options.element_size = scene.resolution.vehicle_element;
@@ -58,24 +59,23 @@ BuiltVehicle build_vehicle(const scene::Scene& scene) {
   const int portions = geometry::portions_in_whole(options.portion);
 
   BuiltVehicle built;
-  built.nominal_density = material.density;
+  built.nominal_density = density;
   const bool wall_from_mass = v.interior == "hollow" && v.mass > 0;
   if (wall_from_mass) {
-    options.wall_thickness =
-        geometry::wall_thickness_for_volume(outline, options, v.mass / material.density / portions);
+    options.wall_thickness = geometry::wall_thickness_for_volume(outline, options, v.mass / density / portions);
     built.mass_note =
         in_words("The wall is %.4f mm thick so that the mesh has the requested mass.", options.wall_thickness * 1e3);
   }
   built.mesh = geometry::make_vehicle_mesh(outline, options);
   built.quality = geometry::measure_quality(built.mesh.hexahedra);
   if (!wall_from_mass) {
-    const double whole = v.mass > 0 ? v.mass : material.density * exact_volume(outline, options.wall_thickness);
-    material.density = whole / portions / built.quality.volume;
+    const double whole = v.mass > 0 ? v.mass : density * exact_volume(outline, options.wall_thickness);
+    continuum::set_density(material, whole / portions / built.quality.volume);
     built.mass_note = in_words(v.mass > 0 ? "The density is scaled by %.6f (ballast) to meet the requested mass."
                                           : "The density is scaled by %.6f because the mesh is inscribed in the shape.",
-                               material.density / built.nominal_density);
+                               continuum::density(material) / built.nominal_density);
   }
-  built.density = material.density;
+  built.density = continuum::density(material);
 
   const Launch launch{v.speed, scene.run.gravity, v.nose_position, v.length, options.element_size};
   auto deformable = std::make_unique<DeformableVehicle>(built.mesh, material, launch);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t node_chunk = 4096;
 
-continuum::ExplicitSolid make_body(const geometry::VehicleMesh& mesh, const continuum::Elastic& law, double speed) {
+continuum::ExplicitSolid make_body(const geometry::VehicleMesh& mesh, const continuum::Law& law, double speed) {
   continuum::ExplicitSolid solid = continuum::make_solid("vehicle", mesh.hexahedra, law);
   for (std::size_t i = 0; i < solid.node_count(); ++i) {
     solid.velocities[3 * i + 2] = speed;
@@ -24,7 +24,7 @@ continuum::ExplicitSolid make_body(const geometry::VehicleMesh& mesh, const cont
 
 }  // namespace
 
-DeformableVehicle::DeformableVehicle(const geometry::VehicleMesh& mesh, const continuum::Elastic& law,
+DeformableVehicle::DeformableVehicle(const geometry::VehicleMesh& mesh, const continuum::Law& law,
                                      const Launch& launch)
     : solid_(make_body(mesh, law, launch.speed)),
       hull_nodes_(mesh.hull_nodes),
@@ -36,8 +36,8 @@ DeformableVehicle::DeformableVehicle(const geometry::VehicleMesh& mesh, const co
     weight_[3 * i + 2] = -gravity_ * solid_.masses[i];
   }
   initial_centre_z_ = centre_of_mass_z();
-  const double youngs_modulus = 9 * law.bulk_modulus * law.shear_modulus / (3 * law.bulk_modulus + law.shear_modulus);
-  wave_time_ = launch.length / std::sqrt(youngs_modulus / law.density);
+  const auto [density, bulk, shear] = continuum::elastic_part(law);
+  wave_time_ = launch.length / std::sqrt(9 * bulk * shear / (3 * bulk + shear) / density);
   external_ = weight_;
   // A step of no length settles the account of the start: kinetic energy is there before the first window.
   continuum::internal_forces(solid_, 0);

@@ -23,10 +23,10 @@ struct StartDamping {
   double at(double time) const { return time < until ? rate * (1 - time / until) : 0; }
 };
 
-/// An elastic vehicle of one-point hexahedra; nodes on planes of symmetry slide in them.
+/// A vehicle of one-point hexahedra that follows a material law; nodes on planes of symmetry slide in them.
 class DeformableVehicle final : public VehicleBody {
  public:
-  DeformableVehicle(const geometry::VehicleMesh& mesh, const continuum::Elastic& law, const Launch& launch);
+  DeformableVehicle(const geometry::VehicleMesh& mesh, const continuum::Law& law, const Launch& launch);
 
   void settle(std::span<const double> hull_force) override;
   void advance_positions(double dt) override;

@@ -52,6 +52,16 @@ Elastic elastic_from_card(const std::string& card, const std::map<std::string, d
   return {read.positive("density"), young / (3 * (1 - 2 * poisson)), young / (2 * (1 + poisson))};
 }
 
+J2Plastic j2_plastic_from_card(const std::string& card, const std::map<std::string, double>& values) {
+  const Card read(card, values);
+  const Elastic elastic = elastic_from_card(card, values);
+  J2Plastic law{elastic.density, elastic.bulk_modulus, elastic.shear_modulus};
+  law.yield_stress = read.positive("yield_stress");
+  if (values.contains("hardening_modulus")) law.hardening_modulus = read.not_negative("hardening_modulus");
+  if (values.contains("failure_strain")) law.failure_strain = read.positive("failure_strain");
+  return law;
+}
+
 JohnsonHolmquist2 johnson_holmquist_2_from_card(const std::string& card, const std::map<std::string, double>& values) {
   const Card read(card, values);
   JohnsonHolmquist2 law;
@@ -89,13 +99,22 @@ JohnsonHolmquist2 johnson_holmquist_2_from_card(const std::string& card, const s
 
 Law law_from_card(const std::string& card, const std::string& law, const std::map<std::string, double>& values) {
   if (law == "elastic") return elastic_from_card(card, values);
+  if (law == "j2_plastic") return j2_plastic_from_card(card, values);
   if (law == "johnson_holmquist_2") return johnson_holmquist_2_from_card(card, values);
   throw std::invalid_argument("material card '" + card + "': law is '" + law +
-                              "', a solid needs elastic or johnson_holmquist_2");
+                              "', a solid needs elastic, j2_plastic or johnson_holmquist_2");
 }
 
 double density(const Law& law) {
   return std::visit([](const auto& l) { return l.density; }, law);
+}
+
+void set_density(Law& law, double density) {
+  std::visit([&](auto& l) { l.density = density; }, law);
+}
+
+Elastic elastic_part(const Law& law) {
+  return std::visit([](const auto& l) { return Elastic{l.density, l.bulk_modulus, l.shear_modulus}; }, law);
 }
 
 double longitudinal_wave_speed(const Law& law) {

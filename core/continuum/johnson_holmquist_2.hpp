@@ -99,13 +99,6 @@ POLYNYA_INLINE T tangent_bulk_modulus(const JohnsonHolmquist2& law, const PointS
          (law.bulk_modulus + compression * (2.0 * law.bulk_modulus_2 + 3.0 * law.bulk_modulus_3 * compression));
 }
 
-/// Von Mises stress of a deviator, Pa.
-template <class T>
-POLYNYA_INLINE T equivalent_stress(const SymmetricTensor<T>& s) {
-  return square_root(
-      T(1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])));
-}
-
 /// Damage after the plastic strain `increment`; where the fracture strain is 0 any yielding fractures.
 template <class T>
 POLYNYA_INLINE T grown_damage(const JohnsonHolmquist2Strength<T>& y, const T& damage, const T& increment) {

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "core/continuum/elastic.hpp"
+#include "core/continuum/j2_plastic.hpp"
 #include "core/continuum/johnson_holmquist_2.hpp"
 #include "core/continuum/rotation.hpp"
 
@@ -12,13 +13,18 @@ namespace polynya::continuum {
 /// The law of a body: chosen once per body, so that kernels are compiled per law.
 /// A law is a struct of constants with density and shear_modulus and the functions advance_stress and
 /// tangent_bulk_modulus.
-using Law = std::variant<Elastic, JohnsonHolmquist2>;
+using Law = std::variant<Elastic, J2Plastic, JohnsonHolmquist2>;
 
-/// law: "elastic" or "johnson_holmquist_2". Throws std::invalid_argument naming the card and the key at fault.
+/// law: "elastic", "j2_plastic" or "johnson_holmquist_2". Throws std::invalid_argument naming the card and the key at
+/// fault.
 Law law_from_card(const std::string& card, const std::string& law, const std::map<std::string, double>& values);
 
 /// Reference density, kg/m^3.
 double density(const Law& law);
+void set_density(Law& law, double density);
+
+/// The elastic solid with the density and the moduli of a law: what is left of it without yielding and failure.
+Elastic elastic_part(const Law& law);
 
 /// Longitudinal wave speed sqrt((K + 4 G / 3) / rho) at the reference state, m/s.
 double longitudinal_wave_speed(const Law& law);

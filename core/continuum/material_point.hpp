@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
 
+#include "core/continuum/number.hpp"
+
 namespace polynya::continuum {
 
 /// Symmetric tensors: xx, yy, zz, xy, yz, zx (tensor components, not engineering shear). Stress: Pa, positive in
@@ -11,6 +13,13 @@ using SymmetricTensor = std::array<T, 6>;
 /// General tensors, row by row: index 3 i + j. A velocity gradient is L_ij = d v_i / d x_j, 1/s.
 template <class T>
 using Tensor = std::array<T, 9>;
+
+/// Von Mises stress of a deviator, Pa.
+template <class T>
+POLYNYA_INLINE T equivalent_stress(const SymmetricTensor<T>& s) {
+  return square_root(
+      T(1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5])));
+}
 
 /// What a constitutive law remembers of one material point. T: double, or a pack of doubles.
 template <class T>

@@ -170,7 +170,7 @@ double memory_limit() {
 
 double sound_speed(const MaterialCard& card, double pressure) {
   const double density = card.value("density");
-  if (card.law == "elastic") {
+  if (card.law == "elastic" || card.law == "j2_plastic") {
     const double e = card.value("youngs_modulus"), nu = card.value("poisson_ratio");
     return std::sqrt(e * (1 - nu) / (density * (1 + nu) * (1 - 2 * nu)));
   }

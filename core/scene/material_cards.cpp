@@ -26,6 +26,10 @@ const std::map<std::string, std::vector<LawValue>>& laws() {
   static const std::map<std::string, std::vector<LawValue>> table{
       {"elastic",
        {positive("density", dim::density), positive("youngs_modulus", dim::pressure), free_value("poisson_ratio")}},
+      {"j2_plastic",
+       {positive("density", dim::density), positive("youngs_modulus", dim::pressure), free_value("poisson_ratio"),
+        positive("yield_stress", dim::pressure), not_negative("hardening_modulus", dim::pressure),
+        LawValue{"failure_strain", dim::none, 0, true, true}}},
       {"johnson_holmquist_2",
        {positive("density", dim::density), positive("shear_modulus", dim::pressure),
         positive("bulk_modulus", dim::pressure), free_value("bulk_modulus_2", dim::pressure),
@@ -51,8 +55,8 @@ const std::map<std::string, std::vector<LawValue>>& laws() {
         {"ratio_of_specific_heats", dim::none, 1, true},
         not_negative("stiffening_pressure", dim::pressure)}},
       {"tait",
-       {positive("density", dim::density), not_negative("reference_pressure", dim::pressure), positive("stiffness", dim::pressure),
-        positive("exponent")}},
+       {positive("density", dim::density), not_negative("reference_pressure", dim::pressure),
+        positive("stiffness", dim::pressure), positive("exponent")}},
   };
   return table;
 }
@@ -201,7 +205,8 @@ void override_values(MaterialCard& card, const Document& values) {
 }
 
 void check_card(const MaterialCard& card) {
-  if (card.law == "elastic" && !(card.value("poisson_ratio") > -1 && card.value("poisson_ratio") < 0.5))
+  if ((card.law == "elastic" || card.law == "j2_plastic") &&
+      !(card.value("poisson_ratio") > -1 && card.value("poisson_ratio") < 0.5))
     throw std::invalid_argument("poisson_ratio must lie between -1 and 0.5");
   if (card.law == "johnson_holmquist_2" &&
       card.value("hugoniot_elastic_limit") <= card.value("pressure_at_hugoniot_elastic_limit"))

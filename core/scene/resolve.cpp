@@ -47,8 +47,8 @@ std::vector<MaterialUse> material_uses(const Values& values) {
   const std::vector<std::string> fluids{"mie_grueneisen", "linear_polynomial", "ideal_gas", "stiffened_gas", "tait"};
   if (values.has("tube")) return {{"tube.left.material", fluids}, {"tube.right.material", fluids}};
   std::vector<MaterialUse> uses;
-  if (values.has("vehicle")) uses.push_back({"vehicle.material", {"elastic"}});
-  if (values.has("ice")) uses.push_back({"ice.material", {"johnson_holmquist_2", "elastic"}});
+  if (values.has("vehicle")) uses.push_back({"vehicle.material", {"elastic", "j2_plastic"}});
+  if (values.has("ice")) uses.push_back({"ice.material", {"johnson_holmquist_2", "j2_plastic", "elastic"}});
   if (values.has("water")) uses.push_back({"water.material", {"mie_grueneisen", "stiffened_gas", "tait"}});
   if (values.has("air")) uses.push_back({"air.material", {"linear_polynomial", "ideal_gas"}});
   return uses;

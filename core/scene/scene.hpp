@@ -21,7 +21,7 @@ struct Effect {
 /// A constitutive law or equation of state with its constants (SI) and where each came from.
 struct MaterialCard {
   std::string name;  ///< "ice.paper"
-  std::string law;   ///< "elastic", "johnson_holmquist_2", "mie_grueneisen", "linear_polynomial", "ideal_gas",
+  std::string law;   ///< "elastic", "j2_plastic", "johnson_holmquist_2", "mie_grueneisen", "linear_polynomial", "ideal_gas",
                      ///< "stiffened_gas", "tait"; docs/scene.md lists the values of each
   std::map<std::string, double> values;       ///< "density", "shear_modulus", ... SI
   std::map<std::string, std::string> origin;  ///< per value: "literature: ...", "calibrated: ...", "assumed: ..."

@@ -35,7 +35,7 @@ TEST(MaterialCard, RefusesUnphysicalConstants) {
 
 TEST(MaterialCard, RefusesAnUnknownLaw) {
   EXPECT_EQ(message_of("rubber", {}),
-            "material card 'ice.test': law is 'rubber', a solid needs elastic or johnson_holmquist_2");
+            "material card 'ice.test': law is 'rubber', a solid needs elastic, j2_plastic or johnson_holmquist_2");
 }
 
 TEST(MaterialCard, ElasticConstantsGiveTheWaveSpeeds) {

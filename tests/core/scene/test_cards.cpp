@@ -35,7 +35,7 @@ TEST(MaterialCards, AllLoadAndEveryValueHasAnOrigin) {
     EXPECT_EQ(card.values.size(), card.origin.size());
     ++count;
   }
-  EXPECT_EQ(count, 8);
+  EXPECT_EQ(count, 13);
 }
 
 /// Johnson & Holmquist 1994: HEL = P_HEL + 2/3 sigma_HEL, sigma_HEL = 2 G mu / (1 + mu), P_HEL = K1 mu + K2 mu^2 + K3

@@ -61,7 +61,7 @@ TEST(SceneErrors, ImpossibleValuesSayWhatIsAllowed) {
       {{"vehicle.head=hemisphere", "vehicle.head_length=10 mm"}, {"hemisphere"}},
       {{"vehicle.nose_position=1 mm"}, {"must be below ice.lower_face"}},
       {{"ice.material=ice.papr"}, {"no card of that name", "did you mean 'ice.paper'?"}},
-      {{"ice.material=water"}, {"must be johnson_holmquist_2 or elastic"}},
+      {{"ice.material=water"}, {"must be johnson_holmquist_2 or j2_plastic or elastic"}},
       {{"materials.\"ice.paper\".damage_constan=1"}, {"did you mean 'damage_constant'?"}},
       {{"materials.\"ice.paper\".shear_modulus=\"3 kg\""}, {"wrong dimension, found kg", "a pressure or stress"}},
       {{"materials.\"ice.paper\".hugoniot_elastic_limit=1e9"}, {"must exceed pressure_at_hugoniot_elastic_limit"}},
