@@ -55,6 +55,7 @@ Fluid make_fluid(const scene::Scene& scene) {
   const bool cavitates = scene.effect("cavitation");
   setup.pressure_floor = {cavitates ? description.vapour_pressure : -1e300, 0.0};
   setup.shock_viscosity = viscosity_of(description);
+  setup.sweeps = description.sweeps == "all_orders" ? Sweeps::all_orders : Sweeps::alternating;
   setup.gravity = scene.run.gravity;
   setup.atmospheric_pressure = description.atmospheric_pressure;
   setup.boundary.fill(description.outer_boundary == "non_reflecting" ? Boundary::non_reflecting : Boundary::wall);

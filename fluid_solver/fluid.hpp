@@ -23,6 +23,10 @@ inline constexpr int water = 0, air = 1;
 /// smooth.
 enum class ShockViscosity { reference, limited };
 
+/// The remap goes axis by axis: orders in turns from step to step, or in every step the mean of all orders, which costs
+/// six remaps and is the same for all axes.
+enum class Sweeps { alternating, all_orders };
+
 /// What does not change during a run.
 struct Setup {
   std::array<EquationOfState, 2> law{MieGrueneisen{}, LinearPolynomial{}};
@@ -31,6 +35,7 @@ struct Setup {
   std::array<Boundary, 6> boundary{};                 ///< x-, x+, y-, y+, z-, z+
   std::array<double, 3> ambient_velocity{};           ///< of the fluid beyond non-reflecting boundaries, m/s
   ShockViscosity shock_viscosity = ShockViscosity::limited;
+  Sweeps sweeps = Sweeps::alternating;
   double gravity = 0;                    ///< m/s^2 along -z
   double atmospheric_pressure = 101325;  ///< Pa, what gauge pressures are counted from
 };

@@ -162,12 +162,21 @@ std::array<double, 3> interface_normal(const std::array<double, 27>& fraction, c
   if (!normalise(smooth, width)) return {};
   std::array<double, 3> best{};
   double steepest = -1;
+  int equal = 0;
   for (int axis = 0; axis < 3; ++axis) {
     std::array<double, 3> heights = of_heights(fraction, width, axis);
     normalise(heights, width);
-    if (std::abs(heights[axis]) <= steepest) continue;
-    steepest = std::abs(heights[axis]);
-    best = heights;
+    const double own = std::abs(heights[axis]), tie = 1e-9;  // equal but for rounding: no axis goes before another
+    if (own < steepest - tie) continue;
+    const bool ahead = own > steepest + tie;
+    equal = ahead ? 1 : equal + 1;
+    for (int d = 0; d < 3; ++d) best[d] = ahead ? heights[d] : best[d] + heights[d];
+    steepest = std::max(own, steepest);
+  }
+  if (equal > 1) {
+    const double sum = std::abs(best[0]) + std::abs(best[1]) + std::abs(best[2]);
+    for (double& component : best) component /= sum > 0 ? sum : 1.0;
+    if (!(sum > 0)) best = smooth;
   }
   const double largest = std::max({std::abs(smooth[0]), std::abs(smooth[1]), std::abs(smooth[2])});
   const std::array<double, 3>& chosen = steepest > largest ? smooth : best;

@@ -17,6 +17,45 @@ Side side(const EquationOfState& law, double floor, double mass, double energy, 
   return {r.pressure, -rho / volume * r.by_density - exchange_pressure / mass * r.by_energy, bulk_modulus(rho, r)};
 }
 
+/// How much energy volume takes along when it changes hands.
+struct Exchange {
+  double pressure = 0;  ///< of the volume that changes hands now
+  int expands = -1;     ///< the material that expands reversibly, if one does
+  double exponent = 0;  ///< of its isentrope: energy ~ volume^-exponent
+  Mixture initial;
+
+  /// Two gases: the one at the higher pressure expands reversibly, the other takes what that sets free, as behind a
+  /// shock. Else the softer material's pressure, which its own volume feels most, holds for both. A material at its
+  /// lower bound is partly void: the other expands into it against that bound only. At the other's pressure the work
+  /// would go into the little mass there and spoil it.
+  Exchange(const std::array<EquationOfState, 2>& law, const std::array<double, 2>& floor, const Mixture& mixture)
+      : initial(mixture) {
+    const Side a = side(law[0], floor[0], initial.mass[0], initial.energy[0], initial.volume[0], 0);
+    const Side b = side(law[1], floor[1], initial.mass[1], initial.energy[1], initial.volume[1], 0);
+    const int high = a.pressure > b.pressure ? 0 : 1;
+    if (is_gas(law[0]) && is_gas(law[1]) && initial.energy[high] > 0) {
+      expands = high;
+      exponent = (high == 0 ? a : b).pressure * initial.volume[high] / initial.energy[high];
+      return;
+    }
+    const bool first_yields = a.bulk == 0 || (b.bulk > 0 && a.bulk < b.bulk);
+    pressure = std::max(0.0, first_yields ? a.pressure : b.pressure);
+  }
+
+  /// Sets the energies when material m has gained the volume `moved` and the other has lost it.
+  void apply(Mixture& mixture, int m, double moved) {
+    double given = pressure * moved;
+    if (expands >= 0) {
+      const double start = initial.energy[expands], sign = expands == m ? 1.0 : -1.0;
+      const double freed = -start * std::expm1(-exponent * std::log1p(sign * moved / initial.volume[expands]));
+      pressure = exponent * (start - freed) / mixture.volume[expands];
+      given = sign * freed;
+    }
+    mixture.energy[m] = initial.energy[m] - given;
+    mixture.energy[1 - m] = initial.energy[1 - m] + given;
+  }
+};
+
 }  // namespace
 
 PointState point_state(const EquationOfState& law, double floor, double mass, double energy, double volume) {
@@ -35,26 +74,18 @@ PointState equilibrate(const std::array<EquationOfState, 2>& law, const std::arr
     mixture.volume[1 - m] = total * (1.0 - 1e-15);
   }
   const int minor = mixture.volume[0] < mixture.volume[1] ? 0 : 1, major = 1 - minor;
-  const Mixture initial = mixture;
-  double exchange = 0;
-  {
-    const Side a = side(law[0], floor[0], initial.mass[0], initial.energy[0], initial.volume[0], 0);
-    const Side b = side(law[1], floor[1], initial.mass[1], initial.energy[1], initial.volume[1], 0);
-    // The softer side sets the pressure of the exchange. A side at its lower bound is partly void: the other expands into
-    // it against that bound only. At the other's pressure the work would go into the little mass there and spoil it.
-    const bool first_yields = a.bulk == 0 || (b.bulk > 0 && a.bulk < b.bulk);
-    exchange = std::max(0.0, first_yields ? a.pressure : b.pressure);
-  }
-  double low = 0, high = total, x = initial.volume[minor];
+  Exchange exchange(law, floor, mixture);
+  double low = 0, high = total, x = mixture.volume[minor];
   Side small{}, large{};
   for (int iteration = 0; iteration < 200; ++iteration) {
-    const double moved = x - initial.volume[minor];
     mixture.volume[minor] = x;
     mixture.volume[major] = total - x;
-    mixture.energy[minor] = initial.energy[minor] - exchange * moved;
-    mixture.energy[major] = initial.energy[major] + exchange * moved;
-    small = side(law[minor], floor[minor], mixture.mass[minor], mixture.energy[minor], x, exchange);
-    large = side(law[major], floor[major], mixture.mass[major], mixture.energy[major], total - x, exchange);
+    exchange.apply(mixture, minor, x - exchange.initial.volume[minor]);
+    const auto of = [&](int m) {
+      return side(law[m], floor[m], mixture.mass[m], mixture.energy[m], mixture.volume[m], exchange.pressure);
+    };
+    small = of(minor);
+    large = of(major);
     const double excess = small.pressure - large.pressure;
     if (std::abs(excess) <= 1e-11 * (std::abs(small.pressure) + std::abs(large.pressure))) break;
     (excess > 0 ? low : high) = x;

@@ -18,8 +18,10 @@ struct PointState {
 /// One material: pressure not below `floor`.
 PointState point_state(const EquationOfState& law, double floor, double mass, double energy, double volume);
 
-/// Lets the two materials exchange volume until their pressures agree. The energy that goes with the volume is that of
-/// the softer material's initial pressure, the same for both: mass, volume and total energy are conserved to rounding.
+/// Lets the two materials exchange volume until their pressures agree. What the one gives of its energy the other
+/// takes: mass, volume and total energy are conserved to rounding. Of two gases the one that expands keeps its entropy,
+/// and what is dissipated heats the one that is compressed, as a shock does; else the energy that goes with the volume
+/// is that of the softer material's initial pressure.
 PointState equilibrate(const std::array<EquationOfState, 2>& law, const std::array<double, 2>& floor, Mixture& mixture);
 
 /// The state of a volume with one or two materials: dormant traces are set aside, the rest comes to equilibrium. The

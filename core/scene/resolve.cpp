@@ -89,7 +89,8 @@ void check_dam(const Document& document, const Values& values) {
     if (values.has(solid))
       throw SceneError(document.tables.at(solid) + ": [" + solid + "] cannot stand beside [dam]; remove one");
   if (!values.has("water")) throw SceneError(document.tables.at("dam") + ": [dam] needs [water] and [air]");
-  const std::vector<std::string> known{"water.material", "air.material", "air.pressure", "fluid.shock_viscosity"};
+  const std::vector<std::string> known{"water.material", "air.material", "air.pressure",
+                                       "fluid.shock_viscosity", "fluid.sweeps"};
   for (const auto& [path, entry] : document.values) {
     const bool fluid = path.starts_with("water.") || path.starts_with("air.") || path.starts_with("fluid.");
     if (fluid && std::find(known.begin(), known.end(), path) == known.end())

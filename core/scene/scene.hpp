@@ -108,6 +108,7 @@ struct Fluid {
   std::string start;                ///< "potential_flow" or "impulsive"
   std::string outer_boundary;       ///< "non_reflecting" or "wall"
   std::string shock_viscosity;      ///< "limited" or "reference"
+  std::string sweeps;               ///< "alternating" or "all_orders"
   std::optional<Dam> dam;           ///< then the fluid is a tank with walls, x from 0 to length, z from 0 to top
   std::optional<Tube> tube;         ///< then the fluid is a one-dimensional tube and nothing else above holds
 };

@@ -140,6 +140,9 @@ std::vector<KeyRule> fluid_rules() {
       choice("fluid.shock_viscosity", {"limited", "reference"}, "limited",
              "away from solids: only in compression that is not smooth, or in all compression (0.06 linear, 1.5 "
              "quadratic); beside solids always the latter"),
+      choice("fluid.sweeps", {"alternating", "all_orders"}, "alternating",
+             "orders of the axes in the remap: in turns, or in every step the mean of all six, which is the same for "
+             "all axes and dearer"),
       positive("dam.length", dim::length, "required",
                "of the column of water along x; a scene with [dam] has [water], [air] and no solid"),
       positive("dam.height", dim::length, "required", "of the column"),

@@ -94,6 +94,34 @@ TEST(PressureEquilibrium, LeavesAnEquilibriumAlone) {
   EXPECT_NEAR(m.volume[1], before.volume[1], 1e-14 * before.volume[1]);
 }
 
+TEST(PressureEquilibrium, GasThatExpandsKeepsItsEntropyAndTheOtherIsHeated) {
+  const std::array<EquationOfState, 2> law{IdealGas{1.4}, IdealGas{1.667}};
+  const std::array<double, 2> gamma{1.4, 1.667};
+  for (const int high : {0, 1}) {
+    for (const double part : {1e-6, 0.05, 0.7, 0.999}) {
+      for (const double ratio : {1.001, 10.0, 2500.0}) {
+        Mixture m;
+        m.volume = {part, 1 - part};
+        m.mass = {part, 0.5 * (1 - part)};
+        const std::array<double, 2> pressure{high == 0 ? ratio : 1.0, high == 0 ? 1.0 : ratio};
+        for (int k = 0; k < 2; ++k) m.energy[k] = pressure[k] * m.volume[k] / (gamma[k] - 1);
+        const double energy = m.energy[0] + m.energy[1];
+        const auto entropy = [&](int k) {  // p V^gamma
+          return point_state(law[k], 0, m.mass[k], m.energy[k], m.volume[k]).pressure * std::pow(m.volume[k], gamma[k]);
+        };
+        const std::array<double, 2> before{entropy(0), entropy(1)};
+        equilibrate(law, {0, 0}, m);
+        EXPECT_NEAR(m.energy[0] + m.energy[1], energy, 1e-14 * energy);
+        EXPECT_NEAR(entropy(high), before[high], 1e-9 * before[high]) << part << ' ' << ratio;
+        EXPECT_GT(entropy(1 - high), before[1 - high] * (ratio > 2 ? 1 + 1e-9 : 1 - 1e-9)) << part << ' ' << ratio;
+        const double p0 = point_state(law[0], 0, m.mass[0], m.energy[0], m.volume[0]).pressure;
+        const double p1 = point_state(law[1], 0, m.mass[1], m.energy[1], m.volume[1]).pressure;
+        EXPECT_NEAR(p0, p1, 1e-9 * p0) << part << ' ' << ratio;
+      }
+    }
+  }
+}
+
 TEST(PressureEquilibrium, SharesOfAChangeKeepThePressuresTogether) {
   const std::array<EquationOfState, 2> law{MieGrueneisen{}, LinearPolynomial{}};
   Mixture m;

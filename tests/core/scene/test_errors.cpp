@@ -102,6 +102,15 @@ TEST(SceneErrors, ShockViscosityNeedsAFluidAndOneOfItsTwoForms) {
   expect_message(message_of_settings({"fluid.shock_viscosity=0.06"}), {"one of limited, reference"});
 }
 
+TEST(SceneErrors, SweepsOfTheFluidAreThoseAskedFor) {
+  for (const std::string name : {"dam_break", "water_exit"}) {
+    EXPECT_EQ(resolve(case_folder(name)).fluid->sweeps, "alternating") << name;
+    const Scene asked = resolve(case_folder(name), {.level = {}, .settings = {"fluid.sweeps=all_orders"}});
+    EXPECT_EQ(asked.fluid->sweeps, "all_orders") << name;
+  }
+  expect_message(message_of_settings({"fluid.sweeps=xyz"}), {"one of alternating, all_orders"});
+}
+
 TEST(SceneErrors, ShockViscosityOfATubeAndOfWaterAndAirIsThatAskedFor) {
   for (const std::string name : {"shock_tube", "water_exit"}) {
     EXPECT_EQ(resolve(case_folder(name)).fluid->shock_viscosity, "limited") << name;
