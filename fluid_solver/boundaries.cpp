@@ -45,6 +45,22 @@ double width(const Grid& grid, int axis, std::ptrdiff_t cell) {
   return axis == 0 ? grid.dx[i] : axis == 1 ? grid.dy[j] : grid.dz[k];
 }
 
+const Ambient& outside(const Fluid& fluid, Side side, std::ptrdiff_t cell) {
+  const auto& beyond = fluid.beyond[static_cast<std::size_t>(2 * side.axis + side.upper)];
+  return beyond ? beyond->state : fluid.ambient[static_cast<std::size_t>(cell / fluid.grid.sz)];
+}
+
+double ambient_speed(const Fluid& fluid, Side side) {
+  const auto& beyond = fluid.beyond[static_cast<std::size_t>(2 * side.axis + side.upper)];
+  return beyond ? beyond->velocity : fluid.setup.ambient_velocity[side.axis];
+}
+
+/// Speed of the plane of a side, m/s; 0 on a grid at rest.
+double side_speed(const Fluid& fluid, Side side) {
+  const std::vector<double>& speed = fluid.motion.speed[side.axis];
+  return speed[static_cast<std::size_t>(side.upper ? number(fluid.grid, side.axis) + 1 : 1)];
+}
+
 double mean_open(const Fluid& fluid, int axis, std::ptrdiff_t face) {
   return 0.5 * (fluid.before.open[axis][face] + fluid.after.open[axis][face]);
 }
@@ -56,11 +72,11 @@ void apply_ambient(Fluid& fluid) {
   for (const Side side : sides) {
     along(grid, side, 0, [&](std::ptrdiff_t cell) {
       const std::ptrdiff_t ghost = side.upper ? cell + grid.stride(side.axis) : cell - grid.stride(side.axis);
-      const Ambient& outside = fluid.ambient[static_cast<std::size_t>(cell / grid.sz)];
+      const Ambient& ambient = outside(fluid, side, cell);
       for (int m = 0; m < 2; ++m) {
-        fluid.donor[m].mass[ghost] = outside.density[m];
-        fluid.donor[m].energy[ghost] = outside.energy_density[m];
-        fluid.donor[m].volume[ghost] = outside.fraction[m];
+        fluid.donor[m].mass[ghost] = ambient.density[m];
+        fluid.donor[m].energy[ghost] = ambient.energy_density[m];
+        fluid.donor[m].volume[ghost] = ambient.fraction[m];
       }
     });
   }
@@ -73,7 +89,7 @@ double outward_speed(const Fluid& fluid, Side side, std::ptrdiff_t cell) {
   const double area = face_area(fluid.grid, side.axis, cell) * mean_open(fluid, side.axis, face);
   if (!(area > 0)) return 0;
   return (side.upper ? 1.0 : -1.0) *
-         (fluid.face_rate[side.axis][face] / area - fluid.setup.ambient_velocity[side.axis]);
+         (fluid.face_rate[side.axis][face] / area - ambient_speed(fluid, side));
 }
 
 /// Cosine of the way out with the ray from the body's centre, over the distance from it, 1/m.
@@ -131,10 +147,11 @@ void set_boundary_pressure(Fluid& fluid, double dt) {
       const std::ptrdiff_t ghost = side.upper ? cell + stride : cell - stride;
       const double slow = fluid.far_field.spherical ? fluid.far_field.slow_speed[s][at++] : 0.0;
       const std::size_t k = static_cast<std::size_t>(cell / grid.sz);
-      double pressure = fluid.ambient[k].pressure, inside = fluid.predicted_pressure[cell];
+      const Ambient& ambient = outside(fluid, side, cell);
+      double pressure = ambient.pressure, inside = fluid.predicted_pressure[cell];
       if (side.axis == 2) {
         // From the height of the cell's centre to the face, with the ambient density and with that inside.
-        const double density = fluid.ambient[k].density[0] + fluid.ambient[k].density[1];
+        const double density = ambient.density[0] + ambient.density[1];
         pressure -= outward * fluid.setup.gravity * (0.5 * grid.dz[k] * density);
         inside -= outward * fluid.setup.gravity * (0.5 * grid.dz[k] * fluid.density[cell]);
       }
@@ -163,11 +180,14 @@ void book_boundary(Fluid& fluid, double dt, const std::vector<StepWall>& walls) 
       const double area = face_area(grid, side.axis, cell);
       const double open = area * mean_open(fluid, side.axis, face);
       impulse += dt * outward * open * fluid.predicted_pressure[ghost];
-      work += dt * outward * fluid.face_rate[side.axis][face] * fluid.predicted_pressure[ghost];
+      double at_face = fluid.predicted_pressure[ghost];
       // What closes the cell besides its open faces and the bodies is the wall of the domain.
       if (fluid.setup.boundary[s] == Boundary::wall) {
+        at_face = fluid.predicted_pressure[cell];  // a wall that moves with the grid does work, of half a cell's weight too
+        if (side.axis == 2) at_face -= outward * fluid.setup.gravity * (0.5 * width(grid, 2, cell) * fluid.density[cell]);
         impulse += dt * outward * area * mean_open(fluid, side.axis, opposite) * fluid.predicted_pressure[cell];
       }
+      work += dt * outward * fluid.face_rate[side.axis][face] * at_face;
     });
     if (fluid.setup.boundary[s] == Boundary::wall) {
       for (const StepWall& wall : walls) {
@@ -232,12 +252,13 @@ void close_wall_nodes(Fluid& fluid) {
   for (std::size_t s = 0; s < sides.size(); ++s) {
     if (fluid.setup.boundary[s] != Boundary::wall) continue;
     const int axis = sides[s].axis;
+    const double wall = side_speed(fluid, sides[s]);
     along(grid, sides[s], 1, [&](std::ptrdiff_t node) {
       double& u = fluid.velocity[axis][node];
-      if (u == 0) return;
-      fluid.account.boundary_impulse[axis] += fluid.node_mass[node] * u;
-      fluid.account.node_fix += 0.5 * fluid.node_mass[node] * u * u;
-      u = 0;
+      if (u == wall) return;
+      fluid.account.boundary_impulse[axis] += fluid.node_mass[node] * (u - wall);
+      fluid.account.node_fix += 0.5 * fluid.node_mass[node] * (u - wall) * (u + wall);
+      u = wall;
     });
   }
 }

@@ -10,7 +10,7 @@
 namespace polynya::fluid {
 
 Fluid::Fluid(Grid grid_in, Setup setup_in)
-    : grid(std::move(grid_in)), setup(std::move(setup_in)), before(grid, setup.boundary), after(grid, setup.boundary) {
+    : grid(std::move(grid_in)), setup(std::move(setup_in)), before(grid, setup.boundary), after(grid, setup.boundary), motion(grid) {
   const std::size_t size = grid.size;
   for (auto& m : material)
     for (auto* array : {&m.mass, &m.energy, &m.volume}) *array = compute::zeros_in_large_pages(size);
@@ -37,9 +37,8 @@ Fluid::Fluid(Grid grid_in, Setup setup_in)
   ambient.assign(static_cast<std::size_t>(grid.nz) + 3, {});
 }
 
-void set_ambient(Fluid& fluid, int k, const CellState& state) {
-  Ambient& layer = fluid.ambient[static_cast<std::size_t>(k)];
-  layer = {};
+Ambient ambient_of(const Setup& setup, const CellState& state) {
+  Ambient layer;
   double heaviest = -1;
   for (int m = 0; m < 2; ++m) {
     layer.fraction[m] = state.fraction[m];
@@ -47,9 +46,14 @@ void set_ambient(Fluid& fluid, int k, const CellState& state) {
     layer.energy_density[m] = layer.density[m] * state.specific_energy[m];
     if (state.fraction[m] > heaviest) {
       heaviest = state.fraction[m];
-      layer.pressure = respond(fluid.setup.law[m], state.density[m], state.specific_energy[m]).pressure;
+      layer.pressure = respond(setup.law[m], state.density[m], state.specific_energy[m]).pressure;
     }
   }
+  return layer;
+}
+
+void set_ambient(Fluid& fluid, int k, const CellState& state) {
+  fluid.ambient[static_cast<std::size_t>(k)] = ambient_of(fluid.setup, state);
 }
 
 void fill_cell(Fluid& fluid, std::ptrdiff_t cell, const CellState& state) {
@@ -97,10 +101,14 @@ double stable_step(const Fluid& fluid) {
            const double* sound = fluid.sound_speed.data() + row;
            const double *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row,
                         *w = fluid.velocity[2].data() + row;
+           const double* plane_x = fluid.motion.speed[0].data();
+           const double plane_y = fluid.motion.speed[1][static_cast<std::size_t>(j)],
+                        plane_z = fluid.motion.speed[2][static_cast<std::size_t>(k)];
            double least = 1e300;
 #pragma omp simd reduction(min : least)
            for (int i = 1; i <= grid.nx; ++i) {
-             const double speed = sound[i] + std::sqrt(u[i] * u[i] + v[i] * v[i] + w[i] * w[i]);
+             const double x = u[i] - plane_x[i], y = v[i] - plane_y, z = w[i] - plane_z;
+             const double speed = sound[i] + std::sqrt(x * x + y * y + z * z);
              const double step = sound[i] > 0 ? std::min(grid.dx[i], thickness) / (speed > 0 ? speed : 1.0) : 1e300;
              least = std::min(least, step);
            }

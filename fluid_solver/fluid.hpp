@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "fluid_solver/cut_geometry.hpp"
 #include "fluid_solver/equation_of_state.hpp"
 #include "fluid_solver/grid.hpp"
+#include "fluid_solver/grid_motion.hpp"
 #include "fluid_solver/groups.hpp"
 #include "fluid_solver/overlap.hpp"
 #include "fluid_solver/pressure_equilibrium.hpp"
@@ -45,10 +47,10 @@ struct Material {
   std::vector<double> mass, energy, volume;  ///< kg, J (internal), m^3
 };
 
-/// Fluid beyond a non-reflecting boundary, by layer of the grid: what flows in, and the pressure that holds it.
-struct Ambient {
-  double pressure = 0;                                            ///< at the height of the cell centre, Pa
-  std::array<double, 2> fraction{}, density{}, energy_density{};  ///< per material; kg and J per m^3 of the mixture
+/// Fluid beyond one non-reflecting side as a whole, where it is not that of the layers.
+struct Beyond {
+  Ambient state;
+  double velocity = 0;  ///< along the axis of the side, m/s
 };
 
 /// The flow beyond non-reflecting boundaries: the water around a body that moves spreads like a spherical wave, so the
@@ -82,7 +84,9 @@ struct Fluid {
   std::vector<double> own_compression;   ///< by member of `groups`: density over the group's at its height, less one
   std::array<Material, 2> material;
   std::array<std::vector<double>, 3> velocity;  ///< of nodes, m/s
+  GridMotion motion;
   std::vector<Ambient> ambient;                 ///< by padded k
+  std::array<std::optional<Beyond>, 6> beyond;  ///< by side, instead of the layers'
   FarField far_field;
   StartDamping start_damping;
   std::array<double, 2> largest_density{};  ///< that the laws hold for, kg/m^3
@@ -146,6 +150,7 @@ template <class StateOf>
 void fill(Fluid& fluid, const Overlap& overlap, StateOf&& state);
 /// Sets masses and energies of one cell from its state and its free volume.
 void fill_cell(Fluid& fluid, std::ptrdiff_t cell, const CellState& state);
+Ambient ambient_of(const Setup& setup, const CellState& state);
 void set_ambient(Fluid& fluid, int k, const CellState& state);
 /// Spreads the ambient state to the ghosts that feed inflow. Called by the fillers.
 void apply_ambient(Fluid& fluid);

@@ -29,6 +29,8 @@ double release_room(const Grid& grid, CutGeometry& before, const CutGeometry& af
 void apply_to_cells(Fluid& fluid, const VolumeCorrection& correction);
 void apply_to_faces(Fluid& fluid, const VolumeCorrection& correction, double dt);
 
+/// grid_motion.cpp: begin_grid_motion, set_wall_flow, subtract_plane_motion, end_grid_motion.
+
 /// boundaries.cpp: ghost pressures at open boundaries, ghost values for the remap, walls and their accounts.
 void set_boundary_pressure(Fluid& fluid, double dt);
 /// Takes the present outward speeds as those of a slow flow around a body at `centre` (m).

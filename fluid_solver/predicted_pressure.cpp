@@ -55,6 +55,9 @@ void predict_row(Fluid& fluid, const Step& step, int j, int k, const RowFlow& fl
   const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
   const double *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row,
                *w = fluid.velocity[2].data() + row;
+  const double* plane_x = fluid.motion.speed[0].data();
+  const double plane_y = fluid.motion.speed[1][static_cast<std::size_t>(j)],
+               plane_z = fluid.motion.speed[2][static_cast<std::size_t>(k)];
   const double* b = fluid.node_fraction.data() + row;
   double* rate = fluid.rate.data() + row;
   double* out = fluid.predicted_pressure.data() + row;
@@ -99,7 +102,8 @@ void predict_row(Fluid& fluid, const Step& step, int j, int k, const RowFlow& fl
     const double floor = std::max(m0[i] > 0 ? floor0 : -1e300, m1[i] > 0 ? floor1 : -1e300);
     const double ahead = std::max(p[i] - bulk[i] * dt * (0.5 * strain + excess_prediction * rough), floor) + q;
     out[i] = volume > 0 ? ahead : 0.0;
-    const double speed = std::sqrt(u[i] * u[i] + v[i] * v[i] + w[i] * w[i]);
+    const double along_x = u[i] - plane_x[i], along_y = v[i] - plane_y, along_z = w[i] - plane_z;
+    const double speed = std::sqrt(along_x * along_x + along_y * along_y + along_z * along_z);
     const double coefficient = rho[i] * (0.002 * sound[i] + 0.1 * speed) * length * length;
     viscosity[i] = whole ? coefficient : 0.0;
   }
@@ -155,6 +159,7 @@ class March {
 #pragma omp simd
       for (int i = 1; i <= grid_.nx; ++i) out[i] = flow_z(row, w, i, sy);
     });
+    set_wall_flow(fluid_, 2, j, k, out);
   }
   void through_y(int j, int k, double* out) {
     const double* v = fluid_.velocity[1].data() + grid_.at(0, j, k);
@@ -163,6 +168,7 @@ class March {
 #pragma omp simd
       for (int i = 1; i <= grid_.nx; ++i) out[i] = flow_y(row, v, i, sz);
     });
+    set_wall_flow(fluid_, 1, j, k, out);
   }
   /// Flow out of the layer k along z; the lower faces are there from the layer before.
   void leave_z(int k) {
@@ -191,6 +197,7 @@ class March {
 #pragma omp simd
       for (int i = 1; i <= grid_.nx + 1; ++i) face[i] = flow_x(row, u, i, sy, sz);
     });
+    set_wall_flow(fluid_, 0, j, k, face);
 #pragma omp simd
     for (int i = 1; i <= grid_.nx; ++i) out[i] = face[i + 1] - face[i];
     out[0] = out[1];

@@ -28,6 +28,7 @@ int materials_around(const Fluid& fluid, int j, int k) {
   const auto& boundary = fluid.setup.boundary;
   if (encloses(boundary, 0) && encloses(boundary, 1) && encloses(boundary, 2)) return held;
   const Ambient* outside = fluid.ambient.data() + k;
+  for (const auto& beyond : fluid.beyond) held |= beyond ? bits(beyond->state) : 0;
   return held | bits(outside[-1]) | bits(outside[0]) | bits(outside[1]);
 }
 

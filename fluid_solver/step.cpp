@@ -8,6 +8,7 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
   Account& account = fluid.account;
   std::vector<StepWall> walls;
   VolumeCorrection correction;
+  begin_grid_motion(fluid, dt);
   {
     const auto lap = fluid.watch.lap("cut_geometry");
     std::swap(fluid.before, fluid.after);
@@ -71,6 +72,7 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
   {
     const auto lap = fluid.watch.lap("remap");
     apply_to_faces(fluid, correction, dt);
+    subtract_plane_motion(fluid, dt);
     remap_cells(fluid, dt);
     {
       const auto inner = fluid.watch.lap("boundaries");
@@ -95,6 +97,7 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     const auto lap = fluid.watch.lap("account");
     fluid.time += dt;
     ++fluid.steps;
+    end_grid_motion(fluid);
     const bool sound = update_account(fluid);
     account.remap_loss += kinetic_before_remap - (account.kinetic + taken_from_nodes);
     if (!sound) check_state(fluid);

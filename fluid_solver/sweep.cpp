@@ -140,7 +140,7 @@ class Pencil {
   /// Along y or z: all rows of a line of rows, `other` the index of the third axis (k along y, j along z): first
   /// `begin`, then `face` for each row of faces.
   void begin(int other) {
-    for (int r = 0; r <= std::min(faces_along() - 1, 2); ++r) load(at_row(r), place(r, other));
+    for (int r = 0; r <= 2; ++r) load(at_row(r), place(r, other));
   }
   int faces_along() const { return (axis_ == 1 ? grid_.ny : grid_.nz) + 1; }
   void face(int f, int other) {
