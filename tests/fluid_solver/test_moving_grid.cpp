@@ -324,3 +324,42 @@ TEST(MovingGrid, TooFastAMotionIsRefused) {
   fill(fluid, {}, [](int, int, int) { return CellState{{1, 0}, {1, 0}, {1e5, 0}}; });
   EXPECT_THROW(step(fluid, 6e-4, {}), FluidError);
 }
+
+TEST(MovingGrid, WaterAtRestUnderAirStaysAtRestWhenTheGridClimbsThroughTheSurface) {
+  // At 2 m/s through ten cells, the waterline in the middle of a cell at the start and then anywhere.
+  const double speed = 2, h = 0.01;
+  polynya::fluid::Setup setup;
+  setup.gravity = 9.81;
+  setup.boundary.fill(Boundary::wall);
+  setup.boundary[4] = setup.boundary[5] = Boundary::non_reflecting;
+  Fluid fluid(Grid(even_line(0, 2 * h, 2), even_line(0, 2 * h, 2), even_line(0, 40 * h, 40)), setup);
+  std::array<EndMotion, 3> motion;
+  motion[2].speed = {speed, speed};
+  prescribe_motion(fluid, motion);
+  const double waterline = 0.255;
+  fill_hydrostatic(fluid, {}, waterline);
+  const double whole = fluid.account.mass[water];
+  double fastest_water = 0, fastest_air = 0, off = 0;
+  while (fluid.time < 10 * h / speed) {
+    step(fluid, stable_step(fluid), {});
+    if (fluid.steps % 50 != 0) continue;
+    update_cell_states(fluid);
+    const Grid& grid = fluid.grid;
+    for (int k = 1; k <= grid.nz; ++k) {
+      const std::ptrdiff_t c = grid.at(1, 1, k);
+      const double w = std::abs(fluid.velocity[2][c]);
+      (fluid.material[water].mass[c] > 0 ? fastest_water : fastest_air) =
+          std::max(fluid.material[water].mass[c] > 0 ? fastest_water : fastest_air, w);
+      const double depth = waterline - grid.centre_z(k);
+      if (depth > h) off = std::max(off, std::abs(fluid.pressure[c] - 101325 - 1000 * setup.gravity * depth));
+    }
+  }
+  const double outside = fluid.account.mass[water] + fluid.account.boundary_mass[water];
+  std::printf(
+      "grid climbing at 2 m/s: water moves at %.1e m/s, air at %.1e m/s, pressure off by %.1f Pa (a cell's head is "
+      "%.0f Pa), water kept to %.1e\n",
+      fastest_water, fastest_air, off, 1000 * setup.gravity * h, std::abs(outside / whole - 1));
+  EXPECT_LT(fastest_water, 1e-2);
+  EXPECT_LT(fastest_air, 1e-1);
+  EXPECT_LT(off, 1000 * setup.gravity * h);
+}
