@@ -22,6 +22,16 @@ void check_tube_side(const scene::TubeState& side, const EquationOfState& law) {
                              " Pa are out of the range of its law: " + fault);
 }
 
+EndMotion motion_of(const scene::AxisMotion& axis) {
+  return {{axis.lower_speed, axis.upper_speed}, axis.times, {axis.lower_displacement, axis.upper_displacement}};
+}
+
+void move_grid(Fluid& fluid, const scene::Fluid& description) {
+  if (!description.grid_motion) return;
+  const scene::GridMotion& motion = *description.grid_motion;
+  prescribe_motion(fluid, {motion_of(motion.x), motion_of(motion.y), motion_of(motion.z)});
+}
+
 ShockViscosity viscosity_of(const scene::Fluid& fluid) {
   return fluid.shock_viscosity == "reference" ? ShockViscosity::reference : ShockViscosity::limited;
 }
@@ -63,6 +73,7 @@ Fluid make_fluid(const scene::Scene& scene) {
   if (scene.symmetry != scene::Symmetry::full) setup.boundary[2] = Boundary::wall;
   Fluid fluid{grid_of(scene), setup};
   if (description.dam) fill_column(fluid, description.dam->length, description.dam->height);
+  move_grid(fluid, description);
   return fluid;
 }
 
@@ -79,25 +90,33 @@ Fluid make_tube(const scene::Scene& scene) {
     setup.pressure_floor[m] = gas ? 0.0 : -1e300;
   }
   for (int m = 0; m < 2; ++m) check_tube_side(m == 0 ? tube.left : tube.right, setup.law[m]);
+  // A grid that moves along the tube shows a part of it, whose ends are not the tube's.
+  const bool closed = !scene.fluid->grid_motion;
+  if (!closed) setup.boundary[0] = setup.boundary[1] = Boundary::non_reflecting;
   Fluid fluid(grid_of(scene), setup);
   const Grid& grid = fluid.grid;
-  fill(fluid, {}, [&](int i, int, int) {
-    const bool left = grid.centre_x(i) < tube.diaphragm;
-    const int m = left ? 0 : 1;
-    const scene::TubeState& side = left ? tube.left : tube.right;
+  const auto state_of = [&](int m) {
+    const scene::TubeState& side = m == 0 ? tube.left : tube.right;
     CellState state;
     state.fraction[m] = 1;
     state.density[m] = side.density;
     state.specific_energy[m] = energy_at(setup.law[m], side.density, side.pressure);
     return state;
-  });
+  };
+  fill(fluid, {}, [&](int i, int, int) { return state_of(grid.centre_x(i) < tube.diaphragm ? 0 : 1); });
   for_rows(grid, 1, [&](int j, int k) {
     for (int i = 1; i <= grid.nx + 1; ++i) {
       const double x = grid.x[i - 1];
-      const bool end = i == 1 || i == grid.nx + 1;
+      const bool end = closed && (i == 1 || i == grid.nx + 1);
       fluid.velocity[0][grid.at(i, j, k)] = end ? 0.0 : x < tube.diaphragm ? tube.left.velocity : tube.right.velocity;
     }
   });
+  if (!closed) {
+    for (int m = 0; m < 2; ++m)
+      fluid.beyond[m] = {ambient_of(setup, state_of(m)), m == 0 ? tube.left.velocity : tube.right.velocity};
+    apply_ambient(fluid);
+    move_grid(fluid, *scene.fluid);
+  }
   update_account(fluid);
   return fluid;
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 #include "fluid_solver/phases.hpp"
 
@@ -168,6 +169,8 @@ GridMotion::GridMotion(const Grid& grid)
 }
 
 void prescribe_motion(Fluid& fluid, const std::array<EndMotion, 3>& motion) {
+  if (fluid.setup.sweeps != Sweeps::alternating)
+    throw std::invalid_argument("a grid that moves is remapped in alternating orders of the sweeps");
   fluid.motion.prescribed = motion;
   set_speeds(fluid.motion, fluid.time);
 }

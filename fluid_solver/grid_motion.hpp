@@ -45,7 +45,8 @@ struct GridMotion {
   bool active() const { return prescribed[0].moves() || prescribed[1].moves() || prescribed[2].moves(); }
 };
 
-/// Sets how the grid moves from now on; `speed` is ready for stable_step.
+/// Sets how the grid moves from now on; `speed` is ready for stable_step. Throws std::invalid_argument unless sweeps
+/// alternate.
 void prescribe_motion(Fluid& fluid, const std::array<EndMotion, 3>& motion);
 
 /// The phases of a step that know of the motion; nothing happens on a grid at rest. Throws FluidError where a plane

@@ -119,7 +119,7 @@ void Output::record(const Fluid& fluid, double step) {
 
 void Output::keep(const Fluid& fluid) {
   check_state(fluid);
-  if (cells_.types.empty()) cells_ = make_cells(fluid.grid);
+  if (cells_.types.empty() || fluid.motion.active()) cells_ = make_cells(fluid.grid);
   add_fields(fluid, cells_);
   good_time_ = fluid.time;
 }

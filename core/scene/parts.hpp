@@ -20,6 +20,8 @@ void read_run(const Values& values, Scene& scene);
 void read_resolution(const Values& values, Scene& scene);
 /// Extent of the fluid; needs the vehicle's place and the end of the run.
 void read_fluid(const Values& values, Scene& scene);
+/// How the fluid's grid moves; needs vehicle, ice, symmetry and fluid.
+void read_grid_motion(const Values& values, Scene& scene);
 /// What is recorded; needs the participants.
 void read_record(const Values& values, Scene& scene);
 /// z of the undisturbed free surface: floating draught of the ice, or as given; 0 without water.

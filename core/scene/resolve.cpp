@@ -106,9 +106,9 @@ void check_sections(const Document& document, const Values& values) {
       if (values.has(other))
         throw SceneError(document.tables.at(other) + ": [" + other + "] cannot stand beside [tube]; remove one");
     for (const auto& [path, entry] : document.values)
-      if (path.starts_with("fluid.") && path != "fluid.shock_viscosity")
+      if (path.starts_with("fluid.") && path != "fluid.shock_viscosity" && !path.starts_with("fluid.grid_motion.x."))
         throw SceneError(entry.where + ": " + path +
-                         " cannot stand beside [tube], which has only fluid.shock_viscosity");
+                         " cannot stand beside [tube], which has only fluid.shock_viscosity and fluid.grid_motion.x");
     for (const std::string side : {"tube.left", "tube.right"})
       if (!values.has(side)) throw SceneError(document.tables.at("tube") + ": [" + side + "] is missing");
     return;
@@ -176,6 +176,7 @@ void read_parts(const Values& values, Scene& scene) {
     scene.fluid.emplace(), read_dam(values, scene);
   else if (values.has("water"))
     scene.fluid.emplace(), read_fluid(values, scene);
+  if (scene.fluid) read_grid_motion(values, scene);
 }
 
 /// Cards of parts that the effects switched off are no longer part of the scene.

@@ -98,6 +98,17 @@ struct Dam {
   double length = 0, height = 0;  ///< m, of the column; the tank's are those of the fluid
 };
 
+/// How the two ends of the fluid's grid move along one axis; planes between keep their share of the way. Displacement:
+/// speed times time plus a table.
+struct AxisMotion {
+  double lower_speed = 0, upper_speed = 0;                              ///< m/s
+  std::vector<double> times, lower_displacement, upper_displacement;  ///< s and m; empty or of one length, from 0 and 0
+};
+
+struct GridMotion {
+  AxisMotion x, y, z;
+};
+
 struct Fluid {
   double length = 0, width = 0;     ///< m, lateral extent of the full domain (x, y)
   double bottom = 0, top = 0;       ///< m, z
@@ -109,6 +120,7 @@ struct Fluid {
   std::string outer_boundary;       ///< "non_reflecting" or "wall"
   std::string shock_viscosity;      ///< "limited" or "reference"
   std::string sweeps;               ///< "alternating" or "all_orders"
+  std::optional<GridMotion> grid_motion;
   std::optional<Dam> dam;           ///< then the fluid is a tank with walls, x from 0 to length, z from 0 to top
   std::optional<Tube> tube;         ///< then the fluid is a one-dimensional tube and nothing else above holds
 };

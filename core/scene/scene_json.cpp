@@ -71,13 +71,27 @@ void members(Part& p, Visit&& visit) {
 }
 
 template <class Part, class Visit>
+requires std::is_same_v<std::remove_const_t<Part>, AxisMotion>
+void members(Part& p, Visit&& visit) {
+  visit("lower_speed", p.lower_speed), visit("upper_speed", p.upper_speed), visit("times", p.times);
+  visit("lower_displacement", p.lower_displacement), visit("upper_displacement", p.upper_displacement);
+}
+
+template <class Part, class Visit>
+requires std::is_same_v<std::remove_const_t<Part>, GridMotion>
+void members(Part& p, Visit&& visit) {
+  visit("x", p.x), visit("y", p.y), visit("z", p.z);
+}
+
+template <class Part, class Visit>
 requires std::is_same_v<std::remove_const_t<Part>, Fluid>
 void members(Part& p, Visit&& visit) {
   visit("length", p.length), visit("width", p.width), visit("bottom", p.bottom), visit("top", p.top);
   visit("waterline", p.waterline), visit("water", p.water), visit("air", p.air);
   visit("atmospheric_pressure", p.atmospheric_pressure), visit("vapour_pressure", p.vapour_pressure);
   visit("start", p.start), visit("outer_boundary", p.outer_boundary);
-  visit("shock_viscosity", p.shock_viscosity), visit("sweeps", p.sweeps), visit("dam", p.dam), visit("tube", p.tube);
+  visit("shock_viscosity", p.shock_viscosity), visit("sweeps", p.sweeps), visit("grid_motion", p.grid_motion);
+  visit("dam", p.dam), visit("tube", p.tube);
 }
 
 template <class Part, class Visit>

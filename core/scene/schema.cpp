@@ -158,6 +158,19 @@ std::vector<KeyRule> fluid_rules() {
     rules.push_back(number(path + "velocity", dim::speed, "0", "along x"));
     rules.push_back(number(path + "pressure", dim::pressure, "required", "absolute"));
   }
+  for (const std::string axis : {"x", "y", "z"}) {
+    const std::string path = "fluid.grid_motion." + axis + ".";
+    rules.push_back(number(path + "speed", dim::speed, "0", "of all planes across " + axis + " of the fluid's grid"));
+    for (const std::string end : {"lower", "upper"})
+      rules.push_back(number(path + end + "_speed", dim::speed, "auto",
+                             "of the " + end + " end along " + axis +
+                                 "; planes between the ends keep their share of the way; auto: `speed`"));
+    rules.push_back(text(path + "times", "none", "of the two next, e.g. \"0, 1 ms, 3 ms\", from 0 on"));
+    for (const std::string end : {"lower", "upper"})
+      rules.push_back(text(path + end + "_displacement", "none",
+                           "of the " + end + " end at these times, on top of its speed, e.g. \"0, 4 mm, 4 mm\"; linear "
+                           "between, held after the last"));
+  }
   return rules;
 }
 
