@@ -180,6 +180,8 @@ nlohmann::json Output::summary(const Fluid& fluid) const {
   s["mass_error"] = start > 0 ? change / start : 0.0;
   s["fluid_energy_drift"] = a.energy_sum() - first_.energy_sum();
   s["leak_fraction"] = vehicle_volume_ > 0 ? hidden / 1000.0 / vehicle_volume_ : 0.0;
+  s["awake_fraction"] = fluid.sleeping.share_awake();
+  s["sleeping_threshold"] = fluid.setup.sleeping_threshold;
   const auto& names = account_names();
   const auto values = account_values(a);
   for (std::size_t n = 0; n < names.size(); ++n) s["account"][names[n]] = values[n];

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace polynya::fluid {
@@ -39,7 +40,7 @@ struct RowAtRest {
 /// is a wall to what is below the threshold, and mass and energy stay exact. Where a row has several bricks awake,
 /// those between are awake, too: every kernel runs over one span per row.
 struct Sleeping {
-  static constexpr int edge = 8;                   ///< of a brick, cells
+  static constexpr int edge = 8;                  ///< of a brick, cells
   static constexpr long steps_between_looks = 8;   ///< in which a signal crosses half a brick
   static constexpr double to_fall_asleep = 0.25;   ///< of the threshold
   static constexpr int quiet_looks_to_sleep = 2;   ///< in a row
@@ -88,6 +89,8 @@ void for_neighbours(const std::array<int, 3>& bricks, std::size_t brick, Body&& 
 
 /// Wakes everything. Called when a fluid is made or filled.
 void wake_all(Fluid& fluid);
+/// Wakes the brick of a cell and those around it: for whoever changes a state from outside.
+void wake(Fluid& fluid, std::ptrdiff_t cell);
 /// Wakes bricks between two that are awake along x.
 void join_along_rows(Sleeping& sleeping);
 /// Makes spans, blocks and sums from `awake`, puts to rest what fell asleep since the last call and fits out what woke.

@@ -81,6 +81,14 @@ bool quiet(double before, double now, double threshold) {
 
 }  // namespace
 
+void wake(Fluid& fluid, std::ptrdiff_t cell) {
+  Sleeping& sleeping = fluid.sleeping;
+  const std::size_t brick = brick_of(fluid, cell);
+  if (sleeping.sheltered[brick]) return;
+  for_neighbours(sleeping.bricks, brick, [&](std::size_t other) { sleeping.awake[other] = 1; });
+  arrange_awake(fluid);
+}
+
 void wake_beside_solids(Fluid& fluid) {
   Sleeping& sleeping = fluid.sleeping;
   if (sleeping.all_awake) return;

@@ -77,7 +77,8 @@ void members(Part& p, Visit&& visit) {
   visit("waterline", p.waterline), visit("water", p.water), visit("air", p.air);
   visit("atmospheric_pressure", p.atmospheric_pressure), visit("vapour_pressure", p.vapour_pressure);
   visit("start", p.start), visit("outer_boundary", p.outer_boundary);
-  visit("shock_viscosity", p.shock_viscosity), visit("sweeps", p.sweeps), visit("dam", p.dam), visit("tube", p.tube);
+  visit("shock_viscosity", p.shock_viscosity), visit("sweeps", p.sweeps);
+  visit("sleeping_threshold", p.sleeping_threshold), visit("dam", p.dam), visit("tube", p.tube);
 }
 
 template <class Part, class Visit>
