@@ -137,7 +137,8 @@ std::vector<Block> blocks_of(const Grid& grid, const Spans& spans, int extra) {
   for (int z = 0; z < up; ++z) {
     for (int y = 0; y < across; ++y) {
       part(grid, spans,
-           {1 + share(ny, across, y), share(ny, across, y + 1), 1 + share(nz, up, z), share(nz, up, z + 1), {}}, blocks);
+           {1 + share(ny, across, y), share(ny, across, y + 1), 1 + share(nz, up, z), share(nz, up, z + 1), {}},
+           blocks);
     }
   }
   return blocks;
@@ -161,8 +162,7 @@ void put_cells_to_rest(Fluid& fluid, std::ptrdiff_t row, Span before, Span now) 
 /// No face of a row lets anything through until a step finds that it does.
 void shut_faces(Fluid& fluid, std::ptrdiff_t row, Span faces) {
   for (int axis = 0; axis < 3; ++axis) {
-    for (int i = faces.first; i <= faces.last; ++i)
-      fluid.face_rate[axis][row + i] = fluid.face_mass[axis][row + i] = 0;
+    for (int i = faces.first; i <= faces.last; ++i) fluid.face_rate[axis][row + i] = fluid.face_mass[axis][row + i] = 0;
   }
 }
 
@@ -184,7 +184,8 @@ double put_nodes_to_rest(Fluid& fluid, std::ptrdiff_t row, Span before, Span now
 RowAtRest sum_at_rest(const Fluid& fluid, int j, int k) {
   const Grid& grid = fluid.grid;
   const std::ptrdiff_t row = grid.at(0, j, k);
-  const Span awake = fluid.sleeping.cells[row_number(grid, j, k)], faces = fluid.sleeping.touched[row_number(grid, j, k)];
+  const Span awake = fluid.sleeping.cells[row_number(grid, j, k)],
+             faces = fluid.sleeping.touched[row_number(grid, j, k)];
   const bool cells = k <= grid.nz;
   RowAtRest sum;
   for (int i = 1; i <= grid.nx; ++i) {
@@ -290,7 +291,8 @@ void let_time_pass(Fluid& fluid, double dt) {
   ++fluid.steps;
   fluid.sleeping.cells_in_all += static_cast<double>(fluid.grid.cells());
   fluid.account.gravity_impulse += dt * fluid.setup.gravity * fluid.sleeping.at_rest.weight;
-  for (int side = 0; side < 6; ++side) fluid.account.boundary_impulse[side / 2] += dt * fluid.sleeping.boundary_force[side];
+  for (int side = 0; side < 6; ++side)
+    fluid.account.boundary_impulse[side / 2] += dt * fluid.sleeping.boundary_force[side];
 }
 
 }  // namespace polynya::fluid

@@ -41,16 +41,16 @@ struct RowAtRest {
 /// those between are awake, too: every kernel runs over one span per row.
 struct Sleeping {
   static constexpr int edge = 8;                  ///< of a brick, cells
-  static constexpr long steps_between_looks = 8;   ///< in which a signal crosses half a brick
-  static constexpr double to_fall_asleep = 0.25;   ///< of the threshold
-  static constexpr int quiet_looks_to_sleep = 2;   ///< in a row
+  static constexpr long steps_between_looks = 8;  ///< in which a signal crosses half a brick
+  static constexpr double to_fall_asleep = 0.25;  ///< of the threshold
+  static constexpr int quiet_looks_to_sleep = 2;  ///< in a row
   static constexpr double steps_looked_ahead = 1000;
 
   // What a stored state has to hold; all that follows is made from it by `arrange_awake`.
-  std::array<int, 3> bricks{};             ///< along x, y, z
-  std::vector<unsigned char> awake;        ///< by brick, x first
-  std::vector<unsigned char> quiet_looks;  ///< by brick: how often in a row it was found quiet
-  std::vector<double> disturbance;         ///< by brick, at the last look; below 0: not known
+  std::array<int, 3> bricks{};                 ///< along x, y, z
+  std::vector<unsigned char> awake;            ///< by brick, x first
+  std::vector<unsigned char> quiet_looks;      ///< by brick: how often in a row it was found quiet
+  std::vector<double> disturbance;             ///< by brick, at the last look; below 0: not known
   double cells_stepped = 0, cells_in_all = 0;  ///< sums over steps
 
   // By row, j + (ny + 3) k.
@@ -62,8 +62,8 @@ struct Sleeping {
   std::vector<unsigned char> layers, planes;  ///< 1 where a layer k, a plane j has cells awake
   std::vector<unsigned char> sheltered;       ///< by brick: it and all its neighbours are awake
   std::vector<Block> cell_blocks, node_blocks, touched_blocks;
-  RowAtRest at_rest;                          ///< of all rows
-  std::array<double, 6> boundary_force{};     ///< by side of the grid: of the cells at rest outward, N
+  RowAtRest at_rest;                       ///< of all rows
+  std::array<double, 6> boundary_force{};  ///< by side of the grid: of the cells at rest outward, N
   std::size_t cells_awake = 0;
   bool all_awake = true;
 
@@ -97,7 +97,8 @@ void join_along_rows(Sleeping& sleeping);
 void arrange_awake(Fluid& fluid);
 /// Wakes bricks that hold cells which solids cut, and their neighbours. In every step, before states are evaluated.
 void wake_beside_solids(Fluid& fluid);
-/// Every few steps, when states are evaluated: wakes the neighbours of what is disturbed, lets sleep what has been quiet.
+/// Every few steps, when states are evaluated: wakes the neighbours of what is disturbed, lets sleep what has been
+/// quiet.
 void look_at_disturbances(Fluid& fluid);
 /// A step in which everything sleeps.
 void let_time_pass(Fluid& fluid, double dt);

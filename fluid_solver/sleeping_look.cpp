@@ -51,8 +51,10 @@ double disturbance_of_row(const Fluid& fluid, std::ptrdiff_t row, Span cells) {
 double disturbance_of_brick(const Fluid& fluid, std::size_t brick, double enough) {
   constexpr int edge = Sleeping::edge;
   const Grid& grid = fluid.grid;
-  const std::size_t nx = static_cast<std::size_t>(fluid.sleeping.bricks[0]), ny = static_cast<std::size_t>(fluid.sleeping.bricks[1]);
-  const int x = static_cast<int>(brick % nx), y = static_cast<int>(brick / nx % ny), z = static_cast<int>(brick / nx / ny);
+  const std::size_t nx = static_cast<std::size_t>(fluid.sleeping.bricks[0]),
+                    ny = static_cast<std::size_t>(fluid.sleeping.bricks[1]);
+  const int x = static_cast<int>(brick % nx), y = static_cast<int>(brick / nx % ny),
+            z = static_cast<int>(brick / nx / ny);
   const Span cells{1 + edge * x, std::min(grid.nx, edge * (x + 1))};
   double largest = 0;
   for (int k = 1 + edge * z; k <= std::min(grid.nz, edge * (z + 1)); ++k) {
