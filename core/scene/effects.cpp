@@ -105,6 +105,7 @@ Decision symmetry(const Scene& scene) {
 /// Only fluid at rest sleeps, so it is worth looking for where a scene starts with some.
 Decision sleeping(const Scene& scene) {
   if (!scene.fluid) return impossible("the scene has no fluid");
+  if (scene.fluid->sweeps == "all_orders") return impossible("the mean of all orders of sweeps goes over every cell");
   char bound[80];
   std::snprintf(bound, sizeof bound, "disturbances below %g of sound speed and bulk modulus are dropped",
                 scene.fluid->sleeping_threshold);
