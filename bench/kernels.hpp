@@ -15,6 +15,9 @@ struct Figure {
 /// call, not counted, warms caches and pages.
 double shortest_time(int repetitions, const std::function<void()>& call);
 
+/// Processor time of this thread in one call, s.
+double time_of(const std::function<void()>& call);
+
 // One function per file; each runs on one thread, and says so where it also tries two.
 std::vector<Figure> machine_triad();
 std::vector<Figure> hexahedron_elastic();
@@ -24,5 +27,6 @@ std::vector<Figure> clip();
 std::vector<Figure> contact_evaluate();
 std::vector<Figure> window();
 std::vector<Figure> fluid_step();
+std::vector<Figure> fluid_sleeping();
 
 }  // namespace polynya::bench

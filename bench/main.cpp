@@ -19,14 +19,16 @@ double processor_seconds() {
 }
 }  // namespace
 
+double time_of(const std::function<void()>& call) {
+  const double start = processor_seconds();
+  call();
+  return processor_seconds() - start;
+}
+
 double shortest_time(int repetitions, const std::function<void()>& call) {
   call();
   double shortest = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < repetitions; ++k) {
-    const double start = processor_seconds();
-    call();
-    shortest = std::min(shortest, processor_seconds() - start);
-  }
+  for (int k = 0; k < repetitions; ++k) shortest = std::min(shortest, time_of(call));
   return shortest;
 }
 
@@ -47,6 +49,7 @@ const Kernel kernels[] = {
     {"contact.evaluate", contact_evaluate},
     {"coupling.window", window},
     {"fluid.cell", fluid_step},
+    {"fluid.sleeping", fluid_sleeping},
 };
 
 int run(int argc, char** argv) {

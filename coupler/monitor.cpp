@@ -82,12 +82,12 @@ Balance balance(const Conversation& conversation, const Ledger& ledger, double a
   if (conversation.fluid) {
     const Account& fluid = conversation.fluid->account;
     // What walls gave to fluid they carried along ("node_fix") is in the fluid's kinetic energy and missing in the solids'.
-    sum.fluid = fluid.change({"kinetic", "internal", "gravity", "remap_loss", "hourglass"});
+    sum.fluid = fluid.change({"kinetic", "internal", "gravity", "remap_loss", "hourglass", "put_to_rest"});
     sum.external -= fluid.change({"boundary_work", "boundary_energy"});
     // The fluid works on walls with absolute pressure, solids count from the atmosphere: their insides hold against it.
     sum.external -= atmospheric_pressure * fluid.change({"swept_volume_vehicle", "swept_volume_ice"});
     sum.numerical -= fluid.change("swept_defect");
-    sum.momentum += fluid.change({"momentum_z", "boundary_impulse_z", "gravity_impulse"});
+    sum.momentum += fluid.change({"momentum_z", "boundary_impulse_z", "gravity_impulse", "rest_impulse_z"});
   }
   sum.contact = ledger.contact_stored + ledger.contact_friction + ledger.contact_damping + ledger.contact_released;
   return sum;

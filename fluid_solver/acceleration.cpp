@@ -17,12 +17,12 @@ struct EdgeForces {
 
 /// With sums s and differences d along x, what no linear field can be is d less its mean over the four edges, and of s
 /// what alternates in y and z.
-void edge_forces(const double* u, const double* coefficient, int count, std::ptrdiff_t sy, std::ptrdiff_t sz,
+void edge_forces(const double* u, const double* coefficient, Span cells, std::ptrdiff_t sy, std::ptrdiff_t sz,
                  const EdgeForces& out) {
   double *lower0 = out.lower[0], *lower1 = out.lower[1], *lower2 = out.lower[2], *lower3 = out.lower[3];
   double *upper0 = out.upper[0], *upper1 = out.upper[1], *upper2 = out.upper[2], *upper3 = out.upper[3];
 #pragma omp simd
-  for (int i = 1; i <= count; ++i) {
+  for (int i = cells.first; i <= cells.last; ++i) {
     const double s0 = u[i] + u[i + 1], d0 = u[i] - u[i + 1];
     const double s1 = u[i + sy] + u[i + sy + 1], d1 = u[i + sy] - u[i + sy + 1];
     const double s2 = u[i + sz] + u[i + sz + 1], d2 = u[i + sz] - u[i + sz + 1];
@@ -55,7 +55,7 @@ struct Around {
 };
 
 template <class Row>
-Energies accelerate_row(Fluid& fluid, double dt, int j, int k, const std::array<double*, 3>& hourglass) {
+Energies accelerate_row(Fluid& fluid, double dt, int j, int k, Span nodes, const std::array<double*, 3>& hourglass) {
   const Grid& grid = fluid.grid;
   const std::ptrdiff_t sy = grid.sy, sz = grid.sz, row = grid.at(0, j, k);
   const Around<Row> at(fluid, j, k);
@@ -71,7 +71,7 @@ Energies accelerate_row(Fluid& fluid, double dt, int j, int k, const std::array<
   const auto lift = [=](std::ptrdiff_t f) { return p[f - sz] - p[f] - (low * rho[f - sz] + high * rho[f]); };
   double loss = 0, moving = 0;
 #pragma omp simd reduction(+ : moving, loss)
-  for (std::ptrdiff_t n = 1; n <= grid.nx + 1; ++n) {
+  for (std::ptrdiff_t n = nodes.first; n <= nodes.last; ++n) {
     const std::ptrdiff_t y = n - sy, z = n - sz, yz = n - sy - sz;
     const double node =
         0.125 * (((m[n] + m[n - 1]) + (my[n] + my[n - 1])) + ((mz[n] + mz[n - 1]) + (myz[n] + myz[n - 1])));
@@ -143,7 +143,8 @@ class March {
     const EdgeForces on = edges();
     const std::ptrdiff_t row = grid_.at(0, j, k);
     if (j >= 1 && j <= grid_.ny && k <= grid_.nz) {
-      edge_forces(fluid_.velocity[d].data() + row, fluid_.viscosity.data() + row, grid_.nx, grid_.sy, grid_.sz, on);
+      const Span cells{std::max(block_.along.first - 1, 1), std::min(block_.along.last, grid_.nx)};
+      edge_forces(fluid_.velocity[d].data() + row, fluid_.viscosity.data() + row, cells, grid_.sy, grid_.sz, on);
     } else {
       for (std::size_t e = 0; e < 4; ++e) {
         std::fill_n(on.lower[e], width_, 0.0);
@@ -155,13 +156,13 @@ class March {
     if (j >= block_.first_j) {
       double* kept = above(d, j);
 #pragma omp simd
-      for (int i = 1; i <= grid_.nx + 1; ++i) {
+      for (int i = block_.along.first; i <= block_.along.last; ++i) {
         out[i] = kept[i] + ((l0[i] + u0[i - 1]) + next_row[i]);
         kept[i] = (l2[i] + u2[i - 1]) + next_row_above[i];
       }
     }
 #pragma omp simd
-    for (int i = 1; i <= grid_.nx + 1; ++i) {
+    for (int i = block_.along.first; i <= block_.along.last; ++i) {
       next_row[i] = l1[i] + u1[i - 1];
       next_row_above[i] = l3[i] + u3[i - 1];
     }
@@ -175,8 +176,8 @@ class March {
       const bool open = untouched(fluid_, j, k) && untouched(fluid_, j - 1, k) && untouched(fluid_, j, k - 1) &&
                         untouched(fluid_, j - 1, k - 1);
       const std::array<double*, 3> hourglass{force(0), force(1), force(2)};
-      const Energies row = open ? accelerate_row<OpenRow>(fluid_, dt_, j, k, hourglass)
-                                : accelerate_row<TouchedRow>(fluid_, dt_, j, k, hourglass);
+      const Energies row = open ? accelerate_row<OpenRow>(fluid_, dt_, j, k, block_.along, hourglass)
+                                : accelerate_row<TouchedRow>(fluid_, dt_, j, k, block_.along, hourglass);
       sum->dissipated += row.dissipated;
       sum->kinetic += row.kinetic;
     }
@@ -193,8 +194,9 @@ class March {
 }  // namespace
 
 double accelerate_nodes(Fluid& fluid, double dt) {
-  std::vector<Energies> of_blocks(block_count(fluid.grid, 1));
-  for_blocks(fluid.grid, 1, [&](const Block& block) { of_blocks[block.number] = March(fluid, dt, block).run(); });
+  const std::vector<Block>& blocks = fluid.sleeping.node_blocks;
+  std::vector<Energies> of_blocks(blocks.size());
+  for_blocks(blocks, [&](std::size_t number, const Block& block) { of_blocks[number] = March(fluid, dt, block).run(); });
   Energies sum;
   for (const Energies& block : of_blocks) {
     sum.dissipated += block.dissipated;

@@ -22,14 +22,26 @@ int number(const Grid& grid, int axis) {
   return axis == 0 ? grid.nx : axis == 1 ? grid.ny : grid.nz;
 }
 
-/// Calls body(inner cell, ghost cell, face, k) for every cell along a side; nodes instead of cells with extra = 1.
+/// What of a side is gone along: cells that are awake or asleep, nodes that have a cell awake, or all of them.
+enum class Part { awake, asleep, touched_nodes, all_nodes };
+
+/// Calls body(inner cell or node, its place along the side) along that part of a side.
 template <class Body>
-void along(const Grid& grid, Side side, int extra, Body&& body) {
-  const int t1 = side.axis == 0 ? 1 : 0, t2 = side.axis == 2 ? 1 : 2;
-  const std::ptrdiff_t s = grid.stride(side.axis), s1 = grid.stride(t1), s2 = grid.stride(t2);
-  const std::ptrdiff_t first = side.upper ? (number(grid, side.axis) + extra) * s : s;
+void along(const Fluid& fluid, Side side, Part part, Body&& body) {
+  const Grid& grid = fluid.grid;
+  const int extra = part == Part::touched_nodes || part == Part::all_nodes;
+  const std::vector<Span>& spans = extra ? fluid.sleeping.touched : fluid.sleeping.cells;
+  const int t1 = side.axis == 0 ? 1 : 0, t2 = side.axis == 2 ? 1 : 2, width = grid.ny + 3;
+  const std::ptrdiff_t s1 = grid.stride(t1), s2 = grid.stride(t2);
+  const int outermost = side.upper ? number(grid, side.axis) + extra : 1;
+  std::size_t place = 0;
   for (int b = 1; b <= number(grid, t2) + extra; ++b) {
-    for (int a = 1; a <= number(grid, t1) + extra; ++a) body(first + a * s1 + b * s2);
+    for (int a = 1; a <= number(grid, t1) + extra; ++a, ++place) {
+      const int row = side.axis == 0 ? a + width * b : side.axis == 1 ? outermost + width * b : b + width * outermost;
+      const bool awake = spans[static_cast<std::size_t>(row)].holds(side.axis == 0 ? outermost : a);
+      if (part == Part::all_nodes || awake != (part == Part::asleep))
+        body(outermost * grid.stride(side.axis) + a * s1 + b * s2, place);
+    }
   }
 }
 
@@ -70,7 +82,7 @@ double mean_open(const Fluid& fluid, int axis, std::ptrdiff_t face) {
 void apply_ambient(Fluid& fluid) {
   const Grid& grid = fluid.grid;
   for (const Side side : sides) {
-    along(grid, side, 0, [&](std::ptrdiff_t cell) {
+    along(fluid, side, Part::awake, [&](std::ptrdiff_t cell, std::size_t) {
       const std::ptrdiff_t ghost = side.upper ? cell + grid.stride(side.axis) : cell - grid.stride(side.axis);
       const Ambient& ambient = outside(fluid, side, cell);
       for (int m = 0; m < 2; ++m) {
@@ -116,9 +128,10 @@ void start_far_field(Fluid& fluid, const std::array<double, 3>& centre) {
   face_rates(fluid, fluid.velocity, fluid.face_rate);
   for (std::size_t s = 0; s < sides.size(); ++s) {
     std::vector<double>& slow = fluid.far_field.slow_speed[s];
-    slow.clear();
+    slow.assign(fluid.outflow[s].size(), 0.0);
     if (fluid.setup.boundary[s] == Boundary::wall) continue;
-    along(fluid.grid, sides[s], 0, [&](std::ptrdiff_t cell) { slow.push_back(outward_speed(fluid, sides[s], cell)); });
+    along(fluid, sides[s], Part::awake,
+          [&](std::ptrdiff_t cell, std::size_t place) { slow[place] = outward_speed(fluid, sides[s], cell); });
   }
 }
 
@@ -126,9 +139,8 @@ void advance_far_field(Fluid& fluid, double dt) {
   if (!fluid.far_field.spherical) return;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     if (fluid.setup.boundary[s] == Boundary::wall) continue;
-    std::size_t at = 0;
-    along(fluid.grid, sides[s], 0, [&](std::ptrdiff_t cell) {
-      double& slow = fluid.far_field.slow_speed[s][at++];
+    along(fluid, sides[s], Part::awake, [&](std::ptrdiff_t cell, std::size_t place) {
+      double& slow = fluid.far_field.slow_speed[s][place];
       slow += dt * fluid.sound_speed[cell] * spreading(fluid, sides[s], cell) *
               (outward_speed(fluid, sides[s], cell) - slow);
     });
@@ -142,10 +154,9 @@ void set_boundary_pressure(Fluid& fluid, double dt) {
     const Side side = sides[s];
     const std::ptrdiff_t stride = grid.stride(side.axis);
     const double outward = side.upper ? 1.0 : -1.0;
-    std::size_t at = 0;
-    along(grid, side, 0, [&](std::ptrdiff_t cell) {
+    along(fluid, side, Part::awake, [&](std::ptrdiff_t cell, std::size_t place) {
       const std::ptrdiff_t ghost = side.upper ? cell + stride : cell - stride;
-      const double slow = fluid.far_field.spherical ? fluid.far_field.slow_speed[s][at++] : 0.0;
+      const double slow = fluid.far_field.spherical ? fluid.far_field.slow_speed[s][place] : 0.0;
       const std::size_t k = static_cast<std::size_t>(cell / grid.sz);
       const Ambient& ambient = outside(fluid, side, cell);
       double pressure = ambient.pressure, inside = fluid.predicted_pressure[cell];
@@ -166,6 +177,21 @@ void set_boundary_pressure(Fluid& fluid, double dt) {
   }
 }
 
+namespace {
+
+/// Force of a cell along a side on what lies beyond it, along the outward direction, N.
+double force_on_side(const Fluid& fluid, Side side, bool wall, std::ptrdiff_t cell) {
+  const std::ptrdiff_t stride = fluid.grid.stride(side.axis);
+  const std::ptrdiff_t face = side.upper ? cell + stride : cell, ghost = side.upper ? cell + stride : cell - stride;
+  const std::ptrdiff_t opposite = side.upper ? cell : cell + stride;
+  const double area = face_area(fluid.grid, side.axis, cell);
+  const double open = area * mean_open(fluid, side.axis, face) * fluid.predicted_pressure[ghost];
+  // What closes the cell besides its open faces and the bodies is the wall of the domain.
+  return wall ? open + area * mean_open(fluid, side.axis, opposite) * fluid.predicted_pressure[cell] : open;
+}
+
+}  // namespace
+
 void book_boundary(Fluid& fluid, double dt, const std::vector<StepWall>& walls) {
   const Grid& grid = fluid.grid;
   Account& account = fluid.account;
@@ -174,21 +200,18 @@ void book_boundary(Fluid& fluid, double dt, const std::vector<StepWall>& walls) 
     const std::ptrdiff_t stride = grid.stride(side.axis);
     const double outward = side.upper ? 1.0 : -1.0;
     double impulse = 0, work = 0;
-    along(grid, side, 0, [&](std::ptrdiff_t cell) {
+    along(fluid, side, Part::awake, [&](std::ptrdiff_t cell, std::size_t) {
       const std::ptrdiff_t face = side.upper ? cell + stride : cell, ghost = side.upper ? cell + stride : cell - stride;
-      const std::ptrdiff_t opposite = side.upper ? cell : cell + stride;
-      const double area = face_area(grid, side.axis, cell);
-      const double open = area * mean_open(fluid, side.axis, face);
-      impulse += dt * outward * open * fluid.predicted_pressure[ghost];
+      const bool wall = fluid.setup.boundary[s] == Boundary::wall;
+      impulse += dt * outward * force_on_side(fluid, side, wall, cell);
       double at_face = fluid.predicted_pressure[ghost];
-      // What closes the cell besides its open faces and the bodies is the wall of the domain.
-      if (fluid.setup.boundary[s] == Boundary::wall) {
-        at_face = fluid.predicted_pressure[cell];  // a wall that moves with the grid does work, of half a cell's weight too
+      if (wall) {  // that moves with the grid does work, of half a cell's weight too
+        at_face = fluid.predicted_pressure[cell];
         if (side.axis == 2) at_face -= outward * fluid.setup.gravity * (0.5 * width(grid, 2, cell) * fluid.density[cell]);
-        impulse += dt * outward * area * mean_open(fluid, side.axis, opposite) * fluid.predicted_pressure[cell];
       }
       work += dt * outward * fluid.face_rate[side.axis][face] * at_face;
     });
+    impulse += dt * fluid.sleeping.boundary_force[s];
     if (fluid.setup.boundary[s] == Boundary::wall) {
       for (const StepWall& wall : walls) {
         int index[3];
@@ -210,15 +233,16 @@ void book_boundary_flow(Fluid& fluid) {
     if (fluid.setup.boundary[s] == Boundary::wall) continue;
     const Side side = sides[s];
     const double outward = side.upper ? 1.0 : -1.0;
-    for (const Fluid::Outflow& out : fluid.outflow[s]) {
+    along(fluid, side, Part::awake, [&](std::ptrdiff_t, std::size_t place) {
+      const Fluid::Outflow& out = fluid.outflow[s][place];
       for (int m = 0; m < 2; ++m) {
         account.boundary_mass[m] += out.mass[m];
         account.boundary_energy += out.energy[m];
       }
-    }
+    });
     const std::ptrdiff_t t1 = grid.stride((side.axis + 1) % 3), t2 = grid.stride((side.axis + 2) % 3);
     const double* mass = fluid.face_mass[side.axis].data();
-    along(grid, side, 1, [&](std::ptrdiff_t node) {
+    along(fluid, side, Part::touched_nodes, [&](std::ptrdiff_t node, std::size_t) {
       const double out = outward * 0.25 * ((mass[node] + mass[node - t1]) + (mass[node - t2] + mass[node - t1 - t2]));
       for (int d = 0; d < 3; ++d) account.boundary_impulse[d] += out * fluid.next_velocity[d][node];
     });
@@ -229,7 +253,7 @@ void copy_face_mass_to_ghosts(Fluid& fluid) {
   const Grid& grid = fluid.grid;
   for (const Side side : sides) {
     const std::ptrdiff_t stride = grid.stride(side.axis);
-    along(grid, side, 0, [&](std::ptrdiff_t cell) {
+    along(fluid, side, Part::awake, [&](std::ptrdiff_t cell, std::size_t) {
       const std::ptrdiff_t face = side.upper ? cell + stride : cell;
       fluid.face_mass[side.axis][side.upper ? face + stride : face - stride] = fluid.face_mass[side.axis][face];
     });
@@ -240,7 +264,7 @@ void copy_velocity_to_ghosts(Fluid& fluid) {
   const Grid& grid = fluid.grid;
   for (const Side side : sides) {
     const std::ptrdiff_t stride = grid.stride(side.axis);
-    along(grid, side, 1, [&](std::ptrdiff_t node) {
+    along(fluid, side, Part::touched_nodes, [&](std::ptrdiff_t node, std::size_t) {
       const std::ptrdiff_t ghost = side.upper ? node + stride : node - stride;
       for (auto& component : fluid.next_velocity) component[ghost] = component[node];
     });
@@ -248,17 +272,32 @@ void copy_velocity_to_ghosts(Fluid& fluid) {
 }
 
 void close_wall_nodes(Fluid& fluid) {
-  const Grid& grid = fluid.grid;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     if (fluid.setup.boundary[s] != Boundary::wall) continue;
     const int axis = sides[s].axis;
     const double wall = side_speed(fluid, sides[s]);
-    along(grid, sides[s], 1, [&](std::ptrdiff_t node) {
+    along(fluid, sides[s], Part::touched_nodes, [&](std::ptrdiff_t node, std::size_t) {
       double& u = fluid.velocity[axis][node];
       if (u == wall) return;
       fluid.account.boundary_impulse[axis] += fluid.node_mass[node] * (u - wall);
       fluid.account.node_fix += 0.5 * fluid.node_mass[node] * (u - wall) * (u + wall);
       u = wall;
+    });
+  }
+}
+
+void rest_boundaries(Fluid& fluid) {
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const Side side = sides[s];
+    const std::ptrdiff_t out = side.upper ? fluid.grid.stride(side.axis) : -fluid.grid.stride(side.axis);
+    double force = 0;
+    along(fluid, side, Part::asleep, [&](std::ptrdiff_t cell, std::size_t) {
+      force += force_on_side(fluid, side, fluid.setup.boundary[s] == Boundary::wall, cell);
+      fluid.face_mass[side.axis][side.upper ? cell + 2 * out : cell + out] = 0;
+    });
+    fluid.sleeping.boundary_force[s] = side.upper ? force : -force;
+    along(fluid, side, Part::all_nodes, [&](std::ptrdiff_t node, std::size_t) {
+      for (auto& component : fluid.next_velocity) component[node + out] = component[node];
     });
   }
 }

@@ -66,6 +66,7 @@ Fluid make_fluid(const scene::Scene& scene) {
   setup.pressure_floor = {cavitates ? description.vapour_pressure : -1e300, 0.0};
   setup.shock_viscosity = viscosity_of(description);
   setup.sweeps = description.sweeps == "all_orders" ? Sweeps::all_orders : Sweeps::alternating;
+  setup.sleeping_threshold = description.sleeping_threshold;
   setup.gravity = scene.run.gravity;
   setup.atmospheric_pressure = description.atmospheric_pressure;
   setup.boundary.fill(description.outer_boundary == "non_reflecting" ? Boundary::non_reflecting : Boundary::wall);
@@ -83,6 +84,7 @@ Fluid make_tube(const scene::Scene& scene) {
   setup.law = {law_of(scene.material(tube.left.material)), law_of(scene.material(tube.right.material))};
   setup.name = {tube.left.material + " (left)", tube.right.material + " (right)"};
   setup.shock_viscosity = viscosity_of(*scene.fluid);
+  setup.sleeping_threshold = scene.fluid->sleeping_threshold;
   setup.boundary.fill(Boundary::wall);
   setup.atmospheric_pressure = 0;
   for (int m = 0; m < 2; ++m) {

@@ -75,14 +75,16 @@ void evaluate_pure_cells(Fluid& fluid, int m, std::ptrdiff_t begin, std::ptrdiff
 void evaluate_cells(Fluid& fluid, const std::vector<double>& volume) {
   const Grid& grid = fluid.grid;
   for_rows(grid, 0, [&](int j, int k) {
-    const std::ptrdiff_t begin = grid.at(1, j, k), end = begin + grid.nx;
+    const Span awake = awake_cells(fluid, j, k);
+    if (awake.empty()) return;
+    const std::ptrdiff_t begin = grid.at(awake.first, j, k), end = grid.at(awake.last, j, k) + 1;
     const double *m0 = fluid.material[0].mass.data(), *m1 = fluid.material[1].mass.data();
     double has0 = 0, has1 = 0;
     for (std::ptrdiff_t c = begin; c < end; ++c) {
       has0 = std::max(has0, m0[c]);
       has1 = std::max(has1, m1[c]);
     }
-    const int held = (has0 > 0 ? 1 : 0) | (has1 > 0 ? 2 : 0);
+    const int held = (has0 > 0 ? 1 : 0) | (has1 > 0 ? 2 : 0) | materials_at_rest(fluid, j, k);
     fluid.row_materials[static_cast<std::size_t>(j + (grid.ny + 3) * k)] = static_cast<unsigned char>(held);
     if (held == 3 || !untouched(fluid, j, k)) {
       for (std::ptrdiff_t c = begin; c < end; ++c) fluid.total_mass[c] = m0[c] + m1[c];

@@ -6,6 +6,7 @@
 #include "core/compute/large_pages.hpp"
 #include "fluid_solver/equation_range.hpp"
 #include "fluid_solver/phases.hpp"
+#include "fluid_solver/row_geometry.hpp"
 
 namespace polynya::fluid {
 
@@ -35,6 +36,7 @@ Fluid::Fluid(Grid grid_in, Setup setup_in)
   label.assign(size, -1);
   for (int m = 0; m < 2; ++m) largest_density[m] = polynya::fluid::largest_density(setup.law[m]);
   ambient.assign(static_cast<std::size_t>(grid.nz) + 3, {});
+  wake_all(*this);
 }
 
 Ambient ambient_of(const Setup& setup, const CellState& state) {
@@ -94,19 +96,20 @@ void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<do
 double stable_step(const Fluid& fluid) {
   const Grid& grid = fluid.grid;
   const std::size_t rows = static_cast<std::size_t>(grid.ny) * grid.nz;
-  return 0.5 * compute::ordered_minimum(rows, 16, 1e300, [&](std::size_t row_number) {
+  return 0.5 * compute::ordered_minimum(rows, 16, fluid.sleeping.at_rest.least_step, [&](std::size_t row_number) {
            const int j = 1 + static_cast<int>(row_number % grid.ny), k = 1 + static_cast<int>(row_number / grid.ny);
            const std::ptrdiff_t row = grid.at(0, j, k);
            const double thickness = std::min(grid.dy[j], grid.dz[k]);
            const double* sound = fluid.sound_speed.data() + row;
            const double *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row,
                         *w = fluid.velocity[2].data() + row;
+           const Span cells = awake_cells(fluid, j, k);
            const double* plane_x = fluid.motion.speed[0].data();
            const double plane_y = fluid.motion.speed[1][static_cast<std::size_t>(j)],
                         plane_z = fluid.motion.speed[2][static_cast<std::size_t>(k)];
            double least = 1e300;
 #pragma omp simd reduction(min : least)
-           for (int i = 1; i <= grid.nx; ++i) {
+           for (int i = cells.first; i <= cells.last; ++i) {
              const double x = u[i] - plane_x[i], y = v[i] - plane_y, z = w[i] - plane_z;
              const double speed = sound[i] + std::sqrt(x * x + y * y + z * z);
              const double step = sound[i] > 0 ? std::min(grid.dx[i], thickness) / (speed > 0 ? speed : 1.0) : 1e300;
@@ -121,13 +124,14 @@ bool update_account(Fluid& fluid) {
   const std::array<bool, 2> gas{is_gas(fluid.setup.law[0]), is_gas(fluid.setup.law[1])};
   const auto sums = row_sums<8>(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
+    const Span cells = awake_cells(fluid, j, k), nodes = awake_nodes(fluid, j, k);
     std::array<double, 8> sum{};
     if (j <= grid.ny && k <= grid.nz) {
       const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
       const double *e0 = fluid.material[0].energy.data() + row, *e1 = fluid.material[1].energy.data() + row;
       double first = 0, second = 0, internal = 0, least = 0;
 #pragma omp simd reduction(+ : first, second, internal) reduction(min : least)
-      for (int i = 1; i <= grid.nx; ++i) {
+      for (int i = cells.first; i <= cells.last; ++i) {
         least = std::min(least, std::min(m0[i], m1[i]));
         first += m0[i];
         second += m1[i];
@@ -135,7 +139,7 @@ bool update_account(Fluid& fluid) {
       }
       for (int m = 0; m < 2; ++m) {
         const double* e = m == 0 ? e0 : e1;
-        for (int i = 1; gas[m] && i <= grid.nx; ++i) least = std::min(least, e[i]);
+        for (int i = cells.first; gas[m] && i <= cells.last; ++i) least = std::min(least, e[i]);
       }
       sum = {first, second, internal};
       sum[7] = least;
@@ -144,7 +148,7 @@ bool update_account(Fluid& fluid) {
                  *v = fluid.velocity[1].data() + row, *w = fluid.velocity[2].data() + row;
     double x = 0, y = 0, z = 0, kinetic = 0;
 #pragma omp simd reduction(+ : x, y, z, kinetic)
-    for (int n = 1; n <= grid.nx + 1; ++n) {
+    for (int n = nodes.first; n <= nodes.last; ++n) {
       x += m[n] * u[n];
       y += m[n] * v[n];
       z += m[n] * w[n];
@@ -157,8 +161,9 @@ bool update_account(Fluid& fluid) {
     return sum;
   });
   Account& account = fluid.account;
-  account.mass = {sums[0], sums[1]};
-  account.internal = sums[2];
+  const RowAtRest& at_rest = fluid.sleeping.at_rest;
+  account.mass = {sums[0] + at_rest.mass[0], sums[1] + at_rest.mass[1]};
+  account.internal = sums[2] + at_rest.internal;
   account.momentum = {sums[3], sums[4], sums[5]};
   account.kinetic = sums[6];
   // A value that is no number makes its sum none, and so does an infinite one.
@@ -170,8 +175,9 @@ void update_node_mass(Fluid& fluid) {
   for_rows(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz;
     const double *m0 = fluid.material[0].mass.data() + row, *m1 = fluid.material[1].mass.data() + row;
+    const Span nodes = touched_nodes(fluid, j, k);
 #pragma omp simd
-    for (std::ptrdiff_t n = 1; n <= grid.nx + 1; ++n) {
+    for (std::ptrdiff_t n = nodes.first; n <= nodes.last; ++n) {
       const auto pair = [&](std::ptrdiff_t c) { return (m0[c] + m1[c]) + (m0[c - 1] + m1[c - 1]); };
       fluid.node_mass[row + n] = 0.125 * ((pair(n) + pair(n - sy)) + (pair(n - sz) + pair(n - sy - sz)));
     }

@@ -14,6 +14,7 @@
 #include "fluid_solver/groups.hpp"
 #include "fluid_solver/overlap.hpp"
 #include "fluid_solver/pressure_equilibrium.hpp"
+#include "fluid_solver/sleeping.hpp"
 
 /// Water and air on one structured grid that solids cut: a staggered Lagrange step with a conservative remap.
 /// No input or output, no transport. Order of calls: make, fill (hydrostatic or by cell), begin, then step by step.
@@ -38,6 +39,7 @@ struct Setup {
   std::array<double, 3> ambient_velocity{};           ///< of the fluid beyond non-reflecting boundaries, m/s
   ShockViscosity shock_viscosity = ShockViscosity::limited;
   Sweeps sweeps = Sweeps::alternating;
+  double sleeping_threshold = 0;         ///< disturbance below which bricks of cells sleep (sleeping_look.cpp); 0: none does
   double gravity = 0;                    ///< m/s^2 along -z
   double atmospheric_pressure = 101325;  ///< Pa, what gauge pressures are counted from
 };
@@ -91,6 +93,7 @@ struct Fluid {
   StartDamping start_damping;
   std::array<double, 2> largest_density{};  ///< that the laws hold for, kg/m^3
   Account account;
+  Sleeping sleeping;
   compute::Stopwatch watch;
   double time = 0;
   long steps = 0;
@@ -204,6 +207,7 @@ struct FluidError : std::runtime_error {
 
 template <class StateOf>
 void fill(Fluid& fluid, const Overlap& overlap, StateOf&& state) {
+  wake_all(fluid);
   fluid.after.set(fluid.grid, fluid.setup.boundary, overlap);
   fluid.before = fluid.after;
   for (int k = 1; k <= fluid.grid.nz; ++k) {

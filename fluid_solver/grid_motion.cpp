@@ -171,6 +171,8 @@ GridMotion::GridMotion(const Grid& grid)
 void prescribe_motion(Fluid& fluid, const std::array<EndMotion, 3>& motion) {
   if (fluid.setup.sweeps != Sweeps::alternating)
     throw std::invalid_argument("a grid that moves is remapped in alternating orders of the sweeps");
+  if (fluid.setup.sleeping_threshold > 0)
+    throw std::invalid_argument("nothing sleeps on a grid that moves: fluid passes through every cell");
   fluid.motion.prescribed = motion;
   set_speeds(fluid.motion, fluid.time);
 }

@@ -7,6 +7,7 @@
 #include "fluid_solver/equation_range.hpp"
 #include "fluid_solver/phases.hpp"
 #include "fluid_solver/pressure_equilibrium.hpp"
+#include "fluid_solver/row_geometry.hpp"
 
 namespace polynya::fluid {
 namespace {
@@ -71,7 +72,7 @@ std::array<double, 2> rounding_of(const Fluid& fluid, std::ptrdiff_t row) {
   return largest;
 }
 
-/// First fault among the rows for which suspect(first cell of the row) holds, as an error.
+/// First fault among the rows for which suspect(first cell of the row, what of it is awake) holds, as an error.
 template <class Suspect>
 void look(const Fluid& fluid, const std::vector<double>& volume, Suspect&& suspect) {
   const Grid& grid = fluid.grid;
@@ -80,7 +81,7 @@ void look(const Fluid& fluid, const std::vector<double>& volume, Suspect&& suspe
   std::mutex guard;
   for_rows(grid, 0, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(1, j, k);
-    if (!suspect(row)) return;
+    if (!suspect(row, awake_cells(fluid, j, k))) return;
     const std::array<double, 2> rounding = rounding_of(fluid, row);
     for (std::ptrdiff_t c = row; c < row + grid.nx; ++c) {
       const std::string fault = fault_of(fluid, c, volume[c], rounding);
@@ -96,7 +97,7 @@ void look(const Fluid& fluid, const std::vector<double>& volume, Suspect&& suspe
 }  // namespace
 
 void check_state(const Fluid& fluid) {
-  look(fluid, fluid.after.volume, [](std::ptrdiff_t) { return true; });
+  look(fluid, fluid.after.volume, [](std::ptrdiff_t, Span) { return true; });
 }
 
 void check_ranges(const Fluid& fluid) {
@@ -105,19 +106,19 @@ void check_ranges(const Fluid& fluid) {
   const std::array<bool, 2> gas{is_gas(fluid.setup.law[0]), is_gas(fluid.setup.law[1])};
   const double *p = fluid.pressure.data(), *bulk = fluid.bulk_modulus.data(), *rho = fluid.density.data();
   const double* whole = fluid.grid.cell_volume.data();
-  look(fluid, fluid.before.volume, [&](std::ptrdiff_t row) {
-    const std::ptrdiff_t end = row + fluid.grid.nx;
+  look(fluid, fluid.before.volume, [&](std::ptrdiff_t row, Span awake) {
+    const std::ptrdiff_t begin = row + awake.first - 1, end = row + awake.last;
     const int materials = fluid.row_materials[static_cast<std::size_t>(row / fluid.grid.sy)];
     int odd = 0;
     for (int m = 0; m < 2; ++m) {
       if (!(materials & (1 << m)) || gas[m]) continue;
       if (materials == 3) {
         const double *mass = fluid.material[m].mass.data(), *volume = fluid.material[m].volume.data();
-        for (std::ptrdiff_t c = row; c < end; ++c)
+        for (std::ptrdiff_t c = begin; c < end; ++c)
           odd |= ((mass[c] > most[m] * volume[c]) & (volume[c] > dormant_fraction * whole[c])) |
                  ((rho[c] > 0) & (bulk[c] == 0) & (p[c] > floor[m]));
       } else {
-        for (std::ptrdiff_t c = row; c < end; ++c)
+        for (std::ptrdiff_t c = begin; c < end; ++c)
           odd |= (rho[c] > most[m]) | ((rho[c] > 0) & (bulk[c] == 0) & (p[c] > floor[m]));
       }
     }
@@ -138,8 +139,9 @@ void check_lagrange_volumes(const Fluid& fluid, double dt) {
   std::mutex guard;
   for_rows(grid, 0, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(1, j, k);
+    const Span awake = awake_cells(fluid, j, k);
     int folded = 0;
-    for (std::ptrdiff_t c = row; c < row + grid.nx; ++c)
+    for (std::ptrdiff_t c = row + awake.first - 1; c < row + awake.last; ++c)
       folded |= (left(c) <= 0) & (std::min(v0[c], v1[c]) >= 0.999999 * whole[c]);
     if (!folded) return;
     for (std::ptrdiff_t c = row; c < row + grid.nx; ++c) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "fluid_solver/pressure_equilibrium.hpp"
+#include "fluid_solver/row_geometry.hpp"
 #include "fluid_solver/sweep.hpp"
 
 namespace polynya::fluid {
@@ -65,10 +66,10 @@ void find_shared_cells(Fluid& fluid, SharedCells& cells) {
   const auto find_in_layer = [&](int k) {
     std::vector<SharedCell>& found = cells[static_cast<std::size_t>(k)];
     found.clear();
-    for (int j = 1; j <= grid.ny; ++j) {
+    for (int j = 1; j <= grid.ny && fluid.sleeping.layers[k]; ++j) {
       if (materials_around(fluid, j, k) != 3) continue;
-      const std::ptrdiff_t begin = grid.at(1, j, k);
-      for (std::ptrdiff_t c = begin; c < begin + grid.nx; ++c) {
+      const Span awake = awake_cells(fluid, j, k);
+      for (std::ptrdiff_t c = grid.at(awake.first, j, k); c <= grid.at(awake.last, j, k); ++c) {
         fluid.label[c] = -1;
         if (!shared(fluid, c)) continue;
         fluid.label[c] = static_cast<std::int32_t>(found.size());
@@ -83,7 +84,9 @@ void find_shared_cells(Fluid& fluid, SharedCells& cells) {
 void forget_shared_cells(Fluid& fluid) {
   const Grid& grid = fluid.grid;
   for_rows(grid, 0, [&](int j, int k) {
-    if (materials_around(fluid, j, k) == 3) std::fill_n(fluid.label.begin() + grid.at(1, j, k), grid.nx, -1);
+    const Span awake = awake_cells(fluid, j, k);
+    if (awake.empty() || materials_around(fluid, j, k) != 3) return;
+    std::fill_n(fluid.label.begin() + grid.at(awake.first, j, k), awake.last - awake.first + 1, -1);
   });
 }
 

@@ -60,12 +60,13 @@ void boundary_face_rates(Fluid& fluid) {
   for_rows(grid, 1, [&](int j, int k) {
     const bool whole_row =
         (j == 1 && open(2)) || (j > grid.ny && open(3)) || (k == 1 && open(4)) || (k > grid.nz && open(5));
-    if (!whole_row && !open(0) && !open(1)) return;
+    const Span faces = touched_nodes(fluid, j, k);
+    if (faces.empty() || (!whole_row && !open(0) && !open(1))) return;
     const std::ptrdiff_t row = grid.at(0, j, k);
     with_row(fluid, j, k, [&](auto at) {
       const auto velocity = row_of(std::as_const(fluid.velocity), row);
       const auto rate = row_of(fluid.face_rate, row);
-      if (whole_row) row_rates(at, grid, velocity, 1.0, 1, grid.nx + 1, rate);
+      if (whole_row) row_rates(at, grid, velocity, 1.0, faces.first, faces.last, rate);
       for (const int end : {1, grid.nx + 1}) rate[0][end] = flow_x(at, velocity[0], end, grid.sy, grid.sz);
     });
   });
@@ -75,11 +76,12 @@ void mean_face_rates(Fluid& fluid) {
   const Grid& grid = fluid.grid;
   for_rows(grid, 1, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
+    const Span faces = touched_nodes(fluid, j, k);
     const auto before = row_of(std::as_const(fluid.velocity), row),
                after = row_of(std::as_const(fluid.next_velocity), row);
     const std::array<Sum, 3> velocity{Sum{before[0], after[0]}, Sum{before[1], after[1]}, Sum{before[2], after[2]}};
     with_row(fluid, j, k,
-             [&](auto at) { row_rates(at, grid, velocity, 0.5, 1, grid.nx + 1, row_of(fluid.face_rate, row)); });
+             [&](auto at) { row_rates(at, grid, velocity, 0.5, faces.first, faces.last, row_of(fluid.face_rate, row)); });
     for (int axis = 0; axis < 3; ++axis) set_wall_flow(fluid, axis, j, k, fluid.face_rate[axis].data() + row);
   });
 }
@@ -115,9 +117,10 @@ double work_in_open_row(Fluid& fluid, double dt, int j, int k, Material& own) {
   const WorkRow at(fluid, j, k);
   const double area = grid.dy[j] * grid.dz[k], *dx = grid.dx.data(), *m = own.mass.data() + row;
   double *volume = fluid.sweep_volume.data() + row, *e = own.energy.data() + row, *held = own.volume.data() + row;
+  const Span cells = awake_cells(fluid, j, k);
   double work = 0;
 #pragma omp simd reduction(+ : work)
-  for (int i = 1; i <= grid.nx; ++i) {
+  for (int i = cells.first; i <= cells.last; ++i) {
     const double change = dt * at.flow(i, sy, sz), later = dx[i] * area + change;
     volume[i] = later;
     e[i] -= m[i] > 0 ? at.p[i] * change : 0.0;
@@ -135,9 +138,10 @@ double volumes_of_row(Fluid& fluid, double dt, int j, int k) {
   const double *v0 = fluid.before.volume.data() + row, *swept = fluid.volume_change.data() + row;
   double *volume = fluid.sweep_volume.data() + row, *rate = fluid.rate.data() + row;
   const double over_dt = 1.0 / dt;
+  const Span cells = awake_cells(fluid, j, k);
   double work = 0;
 #pragma omp simd reduction(+ : work)
-  for (int i = 1; i <= grid.nx; ++i) {
+  for (int i = cells.first; i <= cells.last; ++i) {
     const double flow = at.flow(i, sy, sz);
     rate[i] = flow + swept[i] * over_dt;
     volume[i] = v0[i] + (dt * flow + swept[i]);
@@ -146,19 +150,19 @@ double volumes_of_row(Fluid& fluid, double dt, int j, int k) {
   return work;
 }
 
-void work_on_one(Fluid& fluid, double dt, std::ptrdiff_t row, Material& own) {
+void work_on_one(Fluid& fluid, double dt, std::ptrdiff_t row, Span cells, Material& own) {
   const double *m = own.mass.data() + row, *p = fluid.predicted_pressure.data() + row, *rate = fluid.rate.data() + row,
                *volume = fluid.sweep_volume.data() + row;
   double *e = own.energy.data() + row, *held = own.volume.data() + row;
 #pragma omp simd
-  for (int i = 1; i <= fluid.grid.nx; ++i) {
+  for (int i = cells.first; i <= cells.last; ++i) {
     e[i] -= m[i] > 0 ? dt * p[i] * rate[i] : 0.0;
     held[i] = m[i] > 0 ? volume[i] : 0.0;
   }
 }
 
-void work_on_both(Fluid& fluid, std::ptrdiff_t row) {
-  for (std::ptrdiff_t c = row + 1; c <= row + fluid.grid.nx; ++c) {
+void work_on_both(Fluid& fluid, std::ptrdiff_t row, Span cells) {
+  for (std::ptrdiff_t c = row + cells.first; c <= row + cells.last; ++c) {
     const double change = fluid.sweep_volume[c] - fluid.before.volume[c];
     Mixture mixture;
     for (int m = 0; m < 2; ++m) {
@@ -180,6 +184,8 @@ void work_and_volumes(Fluid& fluid, double dt) {
   const Grid& grid = fluid.grid;
   const double lifted = row_sum(grid, 0, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
+    const Span cells = awake_cells(fluid, j, k);
+    if (cells.empty()) return 0.0;
     const int materials = fluid.row_materials[static_cast<std::size_t>(j + (grid.ny + 3) * k)];
     Material& own = fluid.material[materials == 2 ? 1 : 0];
     double work = 0;
@@ -187,11 +193,11 @@ void work_and_volumes(Fluid& fluid, double dt) {
       work = work_in_open_row(fluid, dt, j, k, own);
     } else {
       work = volumes_of_row(fluid, dt, j, k);
-      materials != 3 ? work_on_one(fluid, dt, row, own) : work_on_both(fluid, row);
+      materials != 3 ? work_on_one(fluid, dt, row, cells, own) : work_on_both(fluid, row, cells);
     }
     if (k < grid.nz) return work;
     const WorkRow at(fluid, j, k);
-    for (int i = 1; i <= grid.nx; ++i) work += at.qz[i + grid.sz] * (at.high * at.rho[i]);
+    for (int i = cells.first; i <= cells.last; ++i) work += at.qz[i + grid.sz] * (at.high * at.rho[i]);
     return work;
   });
   fluid.account.gravity += dt * lifted;

@@ -183,7 +183,7 @@ class March {
       carry_y(block_.first_j - 1, k, y0);
       for (int j = block_.first_j; j <= block_.last_j; ++j) {
         const std::ptrdiff_t row = grid_.at(0, j, k);
-        carry({fluid_, row, 1, grid_.sy, grid_.sz, 0, j, k, false, false}, 0, gas(j, k), x);
+        carry({fluid_, row, 1, grid_.sy, grid_.sz, 0, j, k, false, false}, block_.along.first - 1, gas(j, k), x);
         carry_y(j, k, y1);
         carry_z(j, k, z1);
         update(row, gas(j, k), x, y0, y1, below(j), z1);
@@ -210,15 +210,15 @@ class March {
   }
 
   void carry(const EdgeRow& edges, int first, bool kinetic, const Carried& out) {
-    kinetic ? edges.momentum<true>(first, grid_.nx + 1, out.of[0], out.of[1], out.of[2], out.of[3])
-            : edges.momentum<false>(first, grid_.nx + 1, out.of[0], out.of[1], out.of[2], out.of[3]);
+    kinetic ? edges.momentum<true>(first, block_.along.last, out.of[0], out.of[1], out.of[2], out.of[3])
+            : edges.momentum<false>(first, block_.along.last, out.of[0], out.of[1], out.of[2], out.of[3]);
   }
   void carry_y(int j, int k, const Carried& out) {
-    carry({fluid_, grid_.at(0, j, k), grid_.sy, 1, grid_.sz, 1, j, k, j == 0, j == grid_.ny + 1}, 1,
+    carry({fluid_, grid_.at(0, j, k), grid_.sy, 1, grid_.sz, 1, j, k, j == 0, j == grid_.ny + 1}, block_.along.first,
           gas(j, k) || gas(j + 1, k), out);
   }
   void carry_z(int j, int k, const Carried& out) {
-    carry({fluid_, grid_.at(0, j, k), grid_.sz, 1, grid_.sy, 2, j, k, k == 0, k == grid_.nz + 1}, 1,
+    carry({fluid_, grid_.at(0, j, k), grid_.sz, 1, grid_.sy, 2, j, k, k == 0, k == grid_.nz + 1}, block_.along.first,
           gas(j, k) || gas(j, k + 1), out);
   }
 
@@ -229,7 +229,7 @@ class March {
     const double* old_mass = fluid_.node_mass.data() + row;
     double* __restrict new_mass = fluid_.viscosity.data() + row;  // free until the next step
 #pragma omp simd
-    for (std::ptrdiff_t n = 1; n <= grid_.nx + 1; ++n) {
+    for (std::ptrdiff_t n = block_.along.first; n <= block_.along.last; ++n) {
       const auto pair = [&](std::ptrdiff_t c) { return (m0[c] + m1[c]) + (m0[c - 1] + m1[c - 1]); };
       new_mass[n] = 0.125 * ((pair(n) + pair(n - sy)) + (pair(n - sz) + pair(n - sy - sz)));
     }
@@ -242,7 +242,7 @@ class March {
     double* __restrict vn = fluid_.velocity[1].data() + row;
     double* __restrict wn = fluid_.velocity[2].data() + row;
 #pragma omp simd
-    for (int n = 1; n <= grid_.nx + 1; ++n) {
+    for (int n = block_.along.first; n <= block_.along.last; ++n) {
       const bool filled = new_mass[n] > 0;
       const double inverse = 1.0 / (filled ? new_mass[n] : 1.0);
       un[n] = filled ? inverse * (old_mass[n] * u[n] + gained(0, n)) : u[n];
@@ -255,7 +255,7 @@ class March {
       return u[0][row + n] * u[0][row + n] + u[1][row + n] * u[1][row + n] + u[2][row + n] * u[2][row + n];
     };
 #pragma omp simd
-    for (int n = 1; n <= grid_.nx + 1; ++n) {
+    for (int n = block_.along.first; n <= block_.along.last; ++n) {
       const double lost =
           0.5 * (old_mass[n] * square(fluid_.next_velocity, n) - new_mass[n] * square(fluid_.velocity, n)) +
           gained(3, n);
@@ -279,6 +279,8 @@ double heat_gas(Fluid& fluid, int gases) {
   const Grid& grid = fluid.grid;
   const std::ptrdiff_t sy = grid.sy, sz = grid.sz;
   return row_sum(grid, 0, [&](int j, int k) {
+    const Span cells = awake_cells(fluid, j, k);
+    if (cells.empty()) return 0.0;
     const int heated = gases & materials_around(fluid, j, k);
     double given = 0;
     for (int m = 0; m < 2; ++m) {
@@ -287,7 +289,7 @@ double heat_gas(Fluid& fluid, int gases) {
       const double *loss = fluid.kinetic_loss.data() + row, *mass = fluid.material[m].mass.data() + row;
       double* __restrict energy = fluid.material[m].energy.data() + row;
 #pragma omp simd reduction(+ : given)
-      for (std::ptrdiff_t i = 1; i <= grid.nx; ++i) {
+      for (std::ptrdiff_t i = cells.first; i <= cells.last; ++i) {
         const auto four = [loss, sy, sz](std::ptrdiff_t n) {
           return (loss[n] + loss[n + sy]) + (loss[n + sz] + loss[n + sy + sz]);
         };
@@ -300,13 +302,28 @@ double heat_gas(Fluid& fluid, int gases) {
   });
 }
 
+/// What the remap has brought to nodes beside sleeping cells goes: they stay at rest.
+void hold_sleeping_nodes(Fluid& fluid) {
+  if (fluid.sleeping.all_awake) return;
+  for_rows(fluid.grid, 1, [&](int j, int k) {
+    const Span touched = touched_nodes(fluid, j, k), moving = awake_nodes(fluid, j, k);
+    const std::ptrdiff_t row = fluid.grid.at(0, j, k);
+    for (int i = touched.first; touched != moving && i <= touched.last; ++i) {
+      if (moving.holds(i)) continue;
+      for (auto& component : fluid.velocity) component[row + i] = 0;
+    }
+  });
+}
+
 }  // namespace
 
 void remap_momentum(Fluid& fluid) {
   std::vector<PassingNode> passing = passing_nodes(fluid);
   iterate_donors(fluid, passing);
   const int gases = gases_of(fluid.setup);
-  for_blocks(fluid.grid, 1, [&](const Block& block) { March(fluid, gases, block).run(); });
+  for_blocks(fluid.sleeping.touched_blocks,
+             [&](std::size_t, const Block& block) { March(fluid, gases, block).run(); });
+  hold_sleeping_nodes(fluid);
   // The rows above took the donor velocity of passing nodes for their own.
   for (const PassingNode& p : passing) {
     const double mass = fluid.viscosity[p.node];

@@ -26,6 +26,17 @@ std::vector<results::Column> columns() {
   return all;
 }
 
+/// What sleeping saved, and the bound that it keeps.
+std::string sleeping_report(const Fluid& fluid) {
+  const auto& impulse = fluid.account.rest_impulse;
+  std::ostringstream text;
+  text.precision(3);
+  text << 100 * fluid.sleeping.share_awake() << " % of the cells were stepped; disturbances below "
+       << fluid.setup.sleeping_threshold << " of sound speed and bulk modulus were dropped: " << fluid.account.put_to_rest
+       << " J and " << std::hypot(impulse[0], impulse[1], impulse[2]) << " N s in all";
+  return text.str();
+}
+
 /// Volume of the modelled part of the vehicle taken as a cylinder: a scale for what should not be inside.
 double vehicle_volume(const scene::Scene& scene) {
   if (!scene.vehicle) return 0;
@@ -157,6 +168,7 @@ void Output::write_summary(const Fluid& fluid, double density_error) const {
   found["end_time"] = fluid.time;
   const double energy = first_.kinetic + first_.internal;
   found["energy_error"] = energy > 0 ? std::abs(fluid.account.energy_sum() - first_.energy_sum()) / energy : 0.0;
+  if (fluid.setup.sleeping_threshold > 0) found["effects"]["sleeping"]["reason"] = sleeping_report(fluid);
   if (density_error >= 0) found["density_error"] = density_error;
   results::replace_text(folder_ + "/" + name_ + "_summary.json", found.dump(1) + "\n");
 }
@@ -180,6 +192,8 @@ nlohmann::json Output::summary(const Fluid& fluid) const {
   s["mass_error"] = start > 0 ? change / start : 0.0;
   s["fluid_energy_drift"] = a.energy_sum() - first_.energy_sum();
   s["leak_fraction"] = vehicle_volume_ > 0 ? hidden / 1000.0 / vehicle_volume_ : 0.0;
+  s["awake_fraction"] = fluid.sleeping.share_awake();
+  s["sleeping_threshold"] = fluid.setup.sleeping_threshold;
   const auto& names = account_names();
   const auto values = account_values(a);
   for (std::size_t n = 0; n < names.size(); ++n) s["account"][names[n]] = values[n];

@@ -41,6 +41,8 @@ void book_boundary_flow(Fluid& fluid);
 void copy_face_mass_to_ghosts(Fluid& fluid);
 void copy_velocity_to_ghosts(Fluid& fluid);
 void close_wall_nodes(Fluid& fluid);
+/// Ghosts beside cells that sleep, and the force of these on the sides.
+void rest_boundaries(Fluid& fluid);
 /// Repeats the pressure of the outermost cells in the ghosts.
 void mirror_pressure(Fluid& fluid);
 

@@ -45,7 +45,7 @@ struct RowFlow {
 };
 
 template <bool touched>
-void predict_row(Fluid& fluid, const Step& step, int j, int k, const RowFlow& flow) {
+void predict_row(Fluid& fluid, const Step& step, int j, int k, Span cells, const RowFlow& flow) {
   const Grid& grid = fluid.grid;
   const std::ptrdiff_t sy = grid.sy, sz = grid.sz, row = grid.at(0, j, k);
   const double *v0 = fluid.before.volume.data() + row, *v1 = fluid.after.volume.data() + row;
@@ -70,7 +70,7 @@ void predict_row(Fluid& fluid, const Step& step, int j, int k, const RowFlow& fl
                z_after = step.z.after[k];
   const bool limits = fluid.setup.shock_viscosity == ShockViscosity::limited;
 #pragma omp simd
-  for (int i = 1; i <= grid.nx; ++i) {
+  for (int i = cells.first; i <= cells.last; ++i) {
     const double ex = flow.x[i], ey = flow.y[i], ez = flow.z[i];
     const double x = unexplained(flow.x[i - 1] * x_before[i], ex, flow.x[i + 1] * x_after[i]);
     const double y = unexplained(flow.y_before[i] * y_before, ey, flow.y_after[i] * y_after);
@@ -157,7 +157,7 @@ class March {
     const std::ptrdiff_t sy = grid_.sy;
     with_row(fluid_, j, k, [&](auto row) {
 #pragma omp simd
-      for (int i = 1; i <= grid_.nx; ++i) out[i] = flow_z(row, w, i, sy);
+      for (int i = block_.along.first; i <= block_.along.last; ++i) out[i] = flow_z(row, w, i, sy);
     });
     set_wall_flow(fluid_, 2, j, k, out);
   }
@@ -166,7 +166,7 @@ class March {
     const std::ptrdiff_t sz = grid_.sz;
     with_row(fluid_, j, k, [&](auto row) {
 #pragma omp simd
-      for (int i = 1; i <= grid_.nx; ++i) out[i] = flow_y(row, v, i, sz);
+      for (int i = block_.along.first; i <= block_.along.last; ++i) out[i] = flow_y(row, v, i, sz);
     });
     set_wall_flow(fluid_, 1, j, k, out);
   }
@@ -176,7 +176,7 @@ class March {
       double *lower = face_z(j), *out = out_z(j, k), *upper = face_x();
       through_z(j, k + 1, upper);
 #pragma omp simd
-      for (int i = 1; i <= grid_.nx; ++i) {
+      for (int i = block_.along.first; i <= block_.along.last; ++i) {
         out[i] = upper[i] - lower[i];
         lower[i] = upper[i];
       }
@@ -187,19 +187,20 @@ class March {
     double *out = out_y(j), *upper = face_y(j + 1);
     through_y(j + 1, k, upper);
 #pragma omp simd
-    for (int i = 1; i <= grid_.nx; ++i) out[i] = upper[i] - lower[i];
+    for (int i = block_.along.first; i <= block_.along.last; ++i) out[i] = upper[i] - lower[i];
   }
   void leave_x(int j, int k) {
     const double* u = fluid_.velocity[0].data() + grid_.at(0, j, k);
     double *face = face_x(), *out = out_x();
     const std::ptrdiff_t sy = grid_.sy, sz = grid_.sz;
+    const int first = std::max(block_.along.first - 1, 1), last = std::min(block_.along.last + 1, grid_.nx);
     with_row(fluid_, j, k, [&](auto row) {
 #pragma omp simd
-      for (int i = 1; i <= grid_.nx + 1; ++i) face[i] = flow_x(row, u, i, sy, sz);
+      for (int i = first; i <= last + 1; ++i) face[i] = flow_x(row, u, i, sy, sz);
     });
     set_wall_flow(fluid_, 0, j, k, face);
 #pragma omp simd
-    for (int i = 1; i <= grid_.nx; ++i) out[i] = face[i + 1] - face[i];
+    for (int i = first; i <= last; ++i) out[i] = face[i + 1] - face[i];
     out[0] = out[1];
     out[grid_.nx + 1] = out[grid_.nx];
   }
@@ -212,8 +213,8 @@ class March {
       if (j < grid_.ny) leave_y(j + 1, k);
       leave_x(j, k);
       const RowFlow flow{out_x(), out_y(j - 1), out_y(j), out_y(j + 1), out_z(j, k - 1), out_z(j, k), out_z(j, k + 1)};
-      untouched(fluid_, j, k) ? predict_row<false>(fluid_, step_, j, k, flow)
-                              : predict_row<true>(fluid_, step_, j, k, flow);
+      untouched(fluid_, j, k) ? predict_row<false>(fluid_, step_, j, k, block_.along, flow)
+                              : predict_row<true>(fluid_, step_, j, k, block_.along, flow);
     }
   }
 
@@ -236,7 +237,7 @@ void predict_pressure(Fluid& fluid, double dt) {
   const double linear = linear_viscosity(fluid);
   const Step step{dt, linear - least_linear_viscosity, WidthRatios(grid.dx), WidthRatios(grid.dy),
                   WidthRatios(grid.dz)};
-  for_blocks(grid, 0, [&](const Block& block) { March(fluid, step, block).run(); });
+  for_blocks(fluid.sleeping.cell_blocks, [&](std::size_t, const Block& block) { March(fluid, step, block).run(); });
 }
 
 }  // namespace polynya::fluid

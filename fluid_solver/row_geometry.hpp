@@ -12,6 +12,25 @@ inline bool untouched(const Fluid& fluid, int j, int k) {
   return fluid.cut_rows[static_cast<std::size_t>(j + (fluid.grid.ny + 3) * k)] == 0;
 }
 
+/// What of a row is stepped (see Sleeping): cells, nodes that move, nodes and faces of awake cells; cells that are read.
+inline Span awake_cells(const Fluid& fluid, int j, int k) {
+  return fluid.sleeping.cells[static_cast<std::size_t>(j + (fluid.grid.ny + 3) * k)];
+}
+inline Span awake_nodes(const Fluid& fluid, int j, int k) {
+  return fluid.sleeping.nodes[static_cast<std::size_t>(j + (fluid.grid.ny + 3) * k)];
+}
+inline Span touched_nodes(const Fluid& fluid, int j, int k) {
+  return fluid.sleeping.touched[static_cast<std::size_t>(j + (fluid.grid.ny + 3) * k)];
+}
+inline Span near_cells(const Fluid& fluid, int j, int k) {
+  return fluid.sleeping.near[static_cast<std::size_t>(j + (fluid.grid.ny + 3) * k)];
+}
+
+/// Materials in the cells of a row that sleep: bit 1 water, bit 2 air.
+inline int materials_at_rest(const Fluid& fluid, int j, int k) {
+  return fluid.sleeping.rows_at_rest[static_cast<std::size_t>(j + (fluid.grid.ny + 3) * k)].materials;
+}
+
 /// Lower faces and nodes of an untouched row: coefficients (open area over the sum of node fractions) by i.
 struct OpenRow {
   const double *by_x, *by_width;  ///< a quarter where the x-face is open; a quarter of dx
@@ -88,28 +107,10 @@ inline const double* row_mass(const Fluid& fluid, int j, int k) {
   return mass.data() + fluid.grid.at(0, j, k);
 }
 
-/// A block of rows, both ends included, that one thread takes at once. Small enough that what a kernel keeps from layer
-/// to layer stays in the second-level cache; the blocks depend on the grid alone.
-struct Block {
-  int first_j, last_j, first_k, last_k;
-  std::size_t number;
-};
-
-/// Runs body(block) for blocks that cover rows 1..ny+extra, 1..nz+extra. Returns the number of blocks.
+/// Runs body(number, block) for blocks of `Sleeping`.
 template <class Body>
-void for_blocks(const Grid& grid, int extra, Body&& body) {
-  constexpr int rows = 32, layers = 16;
-  const int ny = grid.ny + extra, nz = grid.nz + extra;
-  const int across = (ny + rows - 1) / rows, up = (nz + layers - 1) / layers;
-  // Even shares, so that no block is a thin rest.
-  const auto share = [](int n, int parts, int part) { return n * part / parts; };
-  compute::for_uneven_chunks(static_cast<std::size_t>(across) * up, 1, [&](std::size_t b, std::size_t) {
-    const int y = static_cast<int>(b) % across, z = static_cast<int>(b) / across;
-    body(Block{1 + share(ny, across, y), share(ny, across, y + 1), 1 + share(nz, up, z), share(nz, up, z + 1), b});
-  });
-}
-inline std::size_t block_count(const Grid& grid, int extra) {
-  return static_cast<std::size_t>((grid.ny + extra + 31) / 32) * static_cast<std::size_t>((grid.nz + extra + 15) / 16);
+void for_blocks(const std::vector<Block>& blocks, Body&& body) {
+  compute::for_uneven_chunks(blocks.size(), 1, [&](std::size_t b, std::size_t) { body(b, blocks[b]); });
 }
 
 }  // namespace polynya::fluid

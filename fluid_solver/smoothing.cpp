@@ -31,7 +31,8 @@ const double* FaceSmoothing::mean_across(const Fluid& fluid, int axis, int j, in
   row_[place] = row;
   mean.resize(static_cast<std::size_t>(grid.nx) + 3);
   const double* p = fluid.pressure.data() + row;
-  for (std::ptrdiff_t i = 1; i <= grid.nx; ++i) {
+  const Span cells = near_cells(fluid, j, k);
+  for (std::ptrdiff_t i = cells.first; i <= cells.last; ++i) {
     const auto band = [p, t1](std::ptrdiff_t c) { return 0.25 * (p[c - t1] + p[c + t1]) + 0.5 * p[c]; };
     mean[static_cast<std::size_t>(i)] = 0.25 * (band(i - t2) + band(i + t2)) + 0.5 * band(i);
   }
@@ -42,6 +43,7 @@ void FaceSmoothing::faces(const Fluid& fluid, double dt, int axis, int j, int k,
   const Grid& grid = fluid.grid;
   if (j > grid.ny || k > grid.nz || (axis == 1 && j == 1) || (axis == 2 && k == 1)) return;
   const int below_j = j - (axis == 1), below_k = k - (axis == 2);
+  if (awake_cells(fluid, j, k).empty() || awake_cells(fluid, below_j, below_k).empty()) return;
   if (materials_beside(fluid, j, k) != 1 || materials_beside(fluid, below_j, below_k) != 1) return;
   const std::ptrdiff_t row = grid.at(0, j, k), s = grid.stride(axis);
   const std::ptrdiff_t t1 = grid.stride((axis + 1) % 3), t2 = grid.stride((axis + 2) % 3);
@@ -58,12 +60,14 @@ void FaceSmoothing::faces(const Fluid& fluid, double dt, int axis, int j, int k,
     const double rate = smoothing * dt / std::max(sound[i], 1.0);
     return rate * (area_x + area_by_dx * dx[i]) * ((p[i] - p[i - s]) - (mean[i] - before[i]));
   };
-  const std::ptrdiff_t first = axis == 0 ? 2 : 1;
+  // Both cells of a face are awake: nothing enters those that sleep.
+  const Span own = awake_cells(fluid, j, k), other = awake_cells(fluid, below_j, below_k);
+  const std::ptrdiff_t first = std::max(own.first, other.first) + (axis == 0), last = std::min(own.last, other.last);
   if (untouched(fluid, j, k)) {
-    for (std::ptrdiff_t i = first; i <= grid.nx; ++i) mass[i] -= smooth(i);
+    for (std::ptrdiff_t i = first; i <= last; ++i) mass[i] -= smooth(i);
     return;
   }
-  for (std::ptrdiff_t i = first; i <= grid.nx; ++i) {
+  for (std::ptrdiff_t i = first; i <= last; ++i) {
     const double whole = std::min(std::min(b[i], b[i + t1]), std::min(b[i + t2], b[i + t1 + t2]));
     mass[i] -= whole >= 1.0 ? smooth(i) : 0.0;
   }

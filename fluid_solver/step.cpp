@@ -2,10 +2,25 @@
 #include "fluid_solver/phases.hpp"
 
 namespace polynya::fluid {
+namespace {
+
+/// Momentum of the fluid and what it has given to everything else but to sleep, N s.
+std::array<double, 3> total_impulse(const Account& account) {
+  std::array<double, 3> sum = account.momentum;
+  for (int d = 0; d < 3; ++d) {
+    sum[d] += account.body_impulse[0][d] + account.body_impulse[1][d] + account.boundary_impulse[d] +
+              account.node_fix_impulse[d];
+  }
+  sum[2] += account.gravity_impulse;
+  return sum;
+}
+
+}  // namespace
 
 void step(Fluid& fluid, double dt, const Overlap& overlap) {
   if (!(dt > 0)) throw std::invalid_argument("a fluid step must be longer than 0 s");
   Account& account = fluid.account;
+  const std::array<double, 3> given_before = total_impulse(account);
   std::vector<StepWall> walls;
   VolumeCorrection correction;
   begin_grid_motion(fluid, dt);
@@ -33,8 +48,14 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
   }
   {
     const auto lap = fluid.watch.lap("equation_of_state");
+    wake_beside_solids(fluid);
+    if (fluid.sleeping.cells_awake == 0) return let_time_pass(fluid, dt);
     evaluate_cells(fluid, fluid.before.volume);
     evaluate_groups(fluid);
+  }
+  {
+    const auto lap = fluid.watch.lap("sleeping");
+    look_at_disturbances(fluid);
   }
   {
     const auto lap = fluid.watch.lap("guard");
@@ -99,6 +120,12 @@ void step(Fluid& fluid, double dt, const Overlap& overlap) {
     ++fluid.steps;
     end_grid_motion(fluid);
     const bool sound = update_account(fluid);
+    if (!fluid.sleeping.all_awake) {
+      const std::array<double, 3> given = total_impulse(account);
+      for (int d = 0; d < 3; ++d) account.rest_impulse[d] += given_before[d] - given[d];
+    }
+    fluid.sleeping.cells_stepped += static_cast<double>(fluid.sleeping.cells_awake);
+    fluid.sleeping.cells_in_all += static_cast<double>(fluid.grid.cells());
     account.remap_loss += kinetic_before_remap - (account.kinetic + taken_from_nodes);
     if (!sound) check_state(fluid);
   }

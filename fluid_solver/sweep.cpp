@@ -9,46 +9,11 @@
 #include <cmath>
 
 #include "fluid_solver/pressure_equilibrium.hpp"
+#include "fluid_solver/row_geometry.hpp"
+#include "fluid_solver/sweep_rows.hpp"
 
 namespace polynya::fluid {
 namespace {
-
-/// Contents of a row of cells per present volume. `plain` is 1 where a material fills the cell and slopes are meant.
-/// Rows that are not `general` hold one material and nothing else: their other arrays are those of all such rows.
-struct CellRow {
-  std::vector<double> storage;
-  double* inverse = nullptr;  ///< of the present volume
-  std::array<double*, 2> mass{}, energy{}, fraction{}, plain{};
-  std::array<const double*, 2> seen_mass{}, seen_energy{}, seen_fraction{}, seen_plain{};
-  bool general = false;
-  int materials = 0;
-
-  explicit CellRow(std::size_t width) : storage(9 * (width + 4), 0.0) {
-    double* next = storage.data() + 2;  // a row may be read two cells before its first
-    for (double** array :
-         {&inverse, &mass[0], &mass[1], &energy[0], &energy[1], &fraction[0], &fraction[1], &plain[0], &plain[1]}) {
-      *array = next;
-      next += width + 4;
-    }
-  }
-  CellRow(CellRow&&) = default;  // the pointers go along with the storage, a copy's would not
-};
-
-/// What crosses a row of faces.
-struct FaceRow {
-  std::vector<double> storage;
-  double* swept = nullptr;  ///< volume, m^3
-  std::array<double*, 2> mass{}, energy{}, volume{};
-
-  explicit FaceRow(std::size_t width) : storage(7 * width, 0.0) {
-    double* next = storage.data();
-    for (double** array : {&swept, &mass[0], &mass[1], &energy[0], &energy[1], &volume[0], &volume[1]}) {
-      *array = next;
-      next += width;
-    }
-  }
-  FaceRow(FaceRow&&) = default;
-};
 
 /// Rows of four cells in a line, the face between the middle ones; all pointers at the index of the face.
 struct Line {
@@ -106,6 +71,8 @@ class Pencil {
 
   /// Along x: one row.
   void run_row(int j, int k) {
+    const Span cells = awake_cells(fluid_, j, k);
+    if (cells.empty()) return;
     CellRow& row = rows_[0];
     FaceRow& face = faces_[0];
     load(row, {j, k});
@@ -116,25 +83,27 @@ class Pencil {
       array[n + 1] = array[n + 2] = array[n];
     }
     const std::ptrdiff_t at = grid_.at(0, j, k);
-    for (int i = 1; i <= n + 1; ++i) face.swept[i] = dt_ * fluid_.face_rate[0][at + i];
+    const Span faces{cells.first, cells.last + 1};
+    for (int i = faces.first; i <= faces.last; ++i) face.swept[i] = dt_ * fluid_.face_rate[0][at + i];
     const auto line = [](const double* f) { return Line{f - 2, f - 1, f, f + 1}; };
     const double* part = part_.data();
     const auto slope_of = [part](int i) { return Slopes{part[i - 1], part[i]}; };
     for (int m = 0; m < 2; ++m) {
       if (!(row.materials >> m & 1)) continue;
-      carry_material(row.general, 1, n + 1, face, m, row.inverse - 1, row.inverse, line(row.seen_mass[m]),
+      carry_material(row.general, faces.first, faces.last, face, m, row.inverse - 1, row.inverse, line(row.seen_mass[m]),
                      line(row.seen_energy[m]), line(row.seen_plain[m]), slope_of);
       if (row.general) {
-        for (int i = 1; i <= n + 1; ++i)
+        for (int i = faces.first; i <= faces.last; ++i)
           face.volume[m][i] = face.swept[i] * (face.swept[i] > 0 ? row.fraction[m][i - 1] : row.fraction[m][i]);
       }
     }
-    for (const int end : {1, n + 1}) inflow(face, row.materials, end, at + (end == 1 ? 0 : end), end == 1);
+    for (const int end : {1, n + 1})
+      if (faces.holds(end)) inflow(face, row.materials, end, at + (end == 1 ? 0 : end), end == 1);
     if (row.materials == 3) {
-      for (int i = 1; i <= n + 1; ++i) shared_donor(face, i, at + i, 1);
+      for (int i = faces.first; i <= faces.last; ++i) shared_donor(face, i, at + i, 1);
     }
-    finish_faces(face, row.materials, j, k);
-    update(row, at, face, face, 1);
+    finish_faces(face, row.materials, faces, j, k);
+    update(row, at, cells, face, face, 1);
   }
 
   /// Along y or z: all rows of a line of rows, `other` the index of the third axis (k along y, j along z): first
@@ -151,9 +120,12 @@ class Pencil {
     CellRow &b = at_row(f - 1), &c = at_row(f);
     CellRow &a = f <= 2 ? b : at_row(f - 2), &d = lowest || f >= n ? c : at_row(f + 1);
     FaceRow &face = faces_[f % 2], &before = faces_[(f + 1) % 2];
+    const auto [below_j, below_k] = place(f - 1, other);
+    const Span below = awake_cells(fluid_, below_j, below_k), faces = hull(below, awake_cells(fluid_, j, k));
+    if (faces.empty()) return;
     const std::ptrdiff_t at = grid_.at(0, j, k);
     const double* rate = fluid_.face_rate[axis_].data() + at;
-    for (int i = 1; i <= grid_.nx; ++i) face.swept[i] = dt_ * rate[i];
+    for (int i = faces.first; i <= faces.last; ++i) face.swept[i] = dt_ * rate[i];
     const int materials = b.materials | c.materials;
     const bool general = a.general || b.general || c.general || d.general;
     const std::vector<double>& widths = axis_ == 1 ? grid_.dy : grid_.dz;
@@ -163,17 +135,17 @@ class Pencil {
       const auto line = [&](std::array<const double*, 2> CellRow::*of) {
         return Line{(a.*of)[m], (b.*of)[m], (c.*of)[m], (d.*of)[m]};
       };
-      carry_material(general, 1, grid_.nx, face, m, b.inverse, c.inverse, line(&CellRow::seen_mass),
+      carry_material(general, faces.first, faces.last, face, m, b.inverse, c.inverse, line(&CellRow::seen_mass),
                      line(&CellRow::seen_energy), line(&CellRow::seen_plain), [part](int) { return part; });
       if (!general) continue;
-      for (int i = 1; i <= grid_.nx; ++i)
+      for (int i = faces.first; i <= faces.last; ++i)
         face.volume[m][i] = face.swept[i] * (face.swept[i] > 0 ? b.seen_fraction[m][i] : c.seen_fraction[m][i]);
     }
     if (materials == 3) {
-      for (int i = 1; i <= grid_.nx; ++i) shared_donor(face, i, at + i, grid_.stride(axis_));
+      for (int i = faces.first; i <= faces.last; ++i) shared_donor(face, i, at + i, grid_.stride(axis_));
     }
-    finish_faces(face, materials, j, k);
-    if (!lowest) update(b, at - grid_.stride(axis_), before, face, 0);
+    finish_faces(face, materials, faces, j, k);
+    if (!lowest) update(b, at - grid_.stride(axis_), below, before, face, 0);
   }
 
  private:
@@ -190,8 +162,9 @@ class Pencil {
     const std::size_t number = static_cast<std::size_t>(j + (grid_.ny + 3) * k);
     row.materials = ghost ? 3 : materials_around(fluid_, j, k);
     row.general = ghost || row.materials == 3 || fluid_.row_held[number] != 0;
+    const Span cells = ghost ? Span{1, n} : near_cells(fluid_, j, k);
     const double* volume = fluid_.sweep_volume.data() + at;
-    for (int i = 1; i <= n; ++i) row.inverse[i] = volume[i] > 0 ? 1.0 / (volume[i] > 0 ? volume[i] : 1.0) : 0.0;
+    for (int i = cells.first; i <= cells.last; ++i) row.inverse[i] = volume[i] > 0 ? 1.0 / (volume[i] > 0 ? volume[i] : 1.0) : 0.0;
     for (int m = 0; m < 2; ++m) {
       double *mass = row.mass[m], *energy = row.energy[m], *fraction = row.fraction[m], *plain = row.plain[m];
       row.seen_mass[m] = mass;
@@ -203,7 +176,7 @@ class Pencil {
         continue;
       }
       const Material& own = fluid_.material[m];
-      for (int i = 1; i <= n; ++i) {
+      for (int i = cells.first; i <= cells.last; ++i) {
         mass[i] = own.mass[at + i] * row.inverse[i];
         energy[i] = own.energy[at + i] * row.inverse[i];
       }
@@ -212,7 +185,7 @@ class Pencil {
         continue;
       }
       const auto& held = fluid_.held;
-      for (int i = 1; i <= n; ++i) {
+      for (int i = cells.first; i <= cells.last; ++i) {
         fraction[i] = own.volume[at + i] * row.inverse[i];
         plain[i] = fraction[i] > 1.0 - dormant_fraction ? 1.0 : 0.0;
         if (!ghost && !held[at + i]) continue;
@@ -264,24 +237,24 @@ class Pencil {
   }
 
   /// Total masses of a row of faces, and the account of what crosses the outer boundary.
-  void finish_faces(FaceRow& face, int materials, int j, int k) {
+  void finish_faces(FaceRow& face, int materials, Span faces, int j, int k) {
     const std::ptrdiff_t at = grid_.at(0, j, k);
-    const int last = axis_ == 0 ? grid_.nx + 1 : grid_.nx;
     if (materials == 1) smooth_.faces(fluid_, dt_, axis_, j, k, face.mass[water]);
     double* __restrict total = fluid_.face_mass[axis_].data() + at;
     const double *m0 = face.mass[0], *m1 = face.mass[1];
     if (materials == 3) {
-      for (int i = 1; i <= last; ++i) total[i] = m0[i] + m1[i];
+      for (int i = faces.first; i <= faces.last; ++i) total[i] = m0[i] + m1[i];
     } else {
-      std::copy(face.mass[materials == 2 ? 1 : 0] + 1, face.mass[materials == 2 ? 1 : 0] + last + 1, total + 1);
+      const double* own = face.mass[materials == 2 ? 1 : 0];
+      std::copy(own + faces.first, own + faces.last + 1, total + faces.first);
     }
     const int n = axis_ == 0 ? grid_.nx : axis_ == 1 ? grid_.ny : grid_.nz, r = axis_ == 0 ? 0 : axis_ == 1 ? j : k;
     if (axis_ == 0) {
-      book(face, materials, 0, 1, (j - 1) + static_cast<std::size_t>(grid_.ny) * (k - 1), -1.0);
-      book(face, materials, 1, n + 1, (j - 1) + static_cast<std::size_t>(grid_.ny) * (k - 1), 1.0);
+      if (faces.first == 1) book(face, materials, 0, 1, (j - 1) + static_cast<std::size_t>(grid_.ny) * (k - 1), -1.0);
+      if (faces.last == n + 1) book(face, materials, 1, n + 1, (j - 1) + static_cast<std::size_t>(grid_.ny) * (k - 1), 1.0);
     } else if (r == 1 || r == n + 1) {
       const int row = axis_ == 1 ? k : j;
-      for (int i = 1; i <= grid_.nx; ++i) {
+      for (int i = faces.first; i <= faces.last; ++i) {
         book(face, materials, 2 * axis_ + (r == 1 ? 0 : 1), i, (i - 1) + static_cast<std::size_t>(grid_.nx) * (row - 1),
              r == 1 ? -1.0 : 1.0);
       }
@@ -297,10 +270,9 @@ class Pencil {
   }
 
   /// Adds to a row of cells what came through its lower faces less what left through its upper ones (shifted along x).
-  void update(const CellRow& row, std::ptrdiff_t at, const FaceRow& lower, const FaceRow& upper, int shift) {
-    const int n = grid_.nx;
+  void update(const CellRow& row, std::ptrdiff_t at, Span cells, const FaceRow& lower, const FaceRow& upper, int shift) {
     const auto add = [&](double* __restrict out, const double* in, const double* gone) {
-      for (int i = 1; i <= n; ++i) out[i] += in[i] - gone[i + shift];
+      for (int i = cells.first; i <= cells.last; ++i) out[i] += in[i] - gone[i + shift];
     };
     for (int m = 0; m < 2; ++m) {
       if (!(row.materials >> m & 1)) continue;
@@ -333,12 +305,17 @@ void sweep_layer(Pencil& pencil, const Grid& grid, int axis, int k) {
   for (int f = 1; f <= pencil.faces_along(); ++f) pencil.face(f, k);
 }
 
+/// True if one of the layers (or planes) begin + 1 to end has cells awake.
+bool any_awake(const std::vector<unsigned char>& layers, std::size_t begin, std::size_t end) {
+  return std::find(layers.begin() + begin + 1, layers.begin() + end + 1, 1) != layers.begin() + end + 1;
+}
+
 /// True for layers no cell of which can be shared while this remap lasts.
 std::vector<char> clear_layers(const Fluid& fluid) {
   const Grid& grid = fluid.grid;
   std::vector<char> clear(static_cast<std::size_t>(grid.nz) + 1, 1);
   for (int k = 1; k <= grid.nz; ++k) {
-    for (int j = 1; j <= grid.ny && clear[k]; ++j) clear[k] = materials_around(fluid, j, k) != 3;
+    for (int j = 1; j <= grid.ny && clear[k] && fluid.sleeping.layers[k]; ++j) clear[k] = materials_around(fluid, j, k) != 3;
   }
   return clear;
 }
@@ -351,8 +328,10 @@ void sweep_layers(Fluid& fluid, int first, int second, double dt, SharedCells& s
   const std::vector<char> clear = clear_layers(fluid);
   find_shared_cells(fluid, shared);
   compute::for_uneven_chunks(layers, planes_per_chunk(grid.sz), [&](std::size_t begin, std::size_t end) {
+    if (!any_awake(fluid.sleeping.layers, begin, end)) return;
     Pencil one(fluid, first, dt, shared), other(fluid, second, dt, shared);
     for (int k = static_cast<int>(begin) + 1; k <= static_cast<int>(end); ++k) {
+      if (!fluid.sleeping.layers[k]) continue;
       sweep_layer(one, grid, first, k);
       if (clear[k]) sweep_layer(other, grid, second, k);
     }
@@ -360,7 +339,7 @@ void sweep_layers(Fluid& fluid, int first, int second, double dt, SharedCells& s
   find_shared_cells(fluid, shared);
   compute::for_uneven_chunks(layers, planes_per_chunk(grid.sz), [&](std::size_t begin, std::size_t end) {
     for (int k = static_cast<int>(begin) + 1; k <= static_cast<int>(end); ++k) {
-      if (clear[k]) continue;
+      if (clear[k] || !fluid.sleeping.layers[k]) continue;
       Pencil pencil(fluid, second, dt, shared);
       sweep_layer(pencil, grid, second, k);
     }
@@ -373,6 +352,7 @@ void sweep(Fluid& fluid, int axis, double dt, SharedCells& shared) {
   if (axis < 2) {
     compute::for_uneven_chunks(static_cast<std::size_t>(grid.nz), planes_per_chunk(grid.sz),
                                [&](std::size_t begin, std::size_t end) {
+                                 if (!any_awake(fluid.sleeping.layers, begin, end)) return;
                                  Pencil pencil(fluid, axis, dt, shared);
                                  for (std::size_t k = begin; k < end; ++k)
                                    sweep_layer(pencil, grid, axis, static_cast<int>(k) + 1);
@@ -382,6 +362,7 @@ void sweep(Fluid& fluid, int axis, double dt, SharedCells& shared) {
   // Several rows side by side: then what is read from a layer lies together.
   constexpr std::size_t together = 4;
   compute::for_uneven_chunks(static_cast<std::size_t>(grid.ny), together, [&](std::size_t begin, std::size_t end) {
+    if (!any_awake(fluid.sleeping.planes, begin, end)) return;
     std::vector<Pencil> pencils;
     for (std::size_t j = begin; j < end; ++j) {
       pencils.emplace_back(fluid, axis, dt, shared);

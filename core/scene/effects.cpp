@@ -1,5 +1,6 @@
 #include "core/scene/effects.hpp"
 
+#include <cstdio>
 #include <functional>
 
 namespace polynya::scene {
@@ -101,6 +102,19 @@ Decision symmetry(const Scene& scene) {
                                                  : "one of four mirrored quarters is modelled"};
 }
 
+/// Only fluid at rest sleeps, so it is worth looking for where a scene starts with some.
+Decision sleeping(const Scene& scene) {
+  if (!scene.fluid) return impossible("the scene has no fluid");
+  if (scene.fluid->sweeps == "all_orders") return impossible("the mean of all orders of sweeps goes over every cell");
+  if (scene.fluid->grid_motion) return impossible("fluid passes through every cell of a grid that moves");
+  char bound[80];
+  std::snprintf(bound, sizeof bound, "disturbances below %g of sound speed and bulk modulus are dropped",
+                scene.fluid->sleeping_threshold);
+  if (scene.vehicle && scene.fluid->start == "potential_flow")
+    return {false, "the flow around the moving vehicle fills the water from the start: nothing is at rest"};
+  return {true, std::string("the fluid starts at rest; ") + bound};
+}
+
 /// In the order of the decisions: later rules look at what earlier ones decided (fluid is decided before).
 const std::vector<Rule>& rules() {
   static const std::vector<Rule> list{
@@ -125,7 +139,10 @@ const std::vector<Rule>& rules() {
       {"debris_drag", not_available, nothing},
       {"non_reflecting_boundaries", non_reflecting, make_reflecting},
       {"symmetry", symmetry, [](Scene& s) { s.symmetry = Symmetry::full; }},
-      {"sleeping", not_available, nothing},
+      {"sleeping", sleeping,
+       [](Scene& s) {
+         if (s.fluid) s.fluid->sleeping_threshold = 0;
+       }},
   };
   return list;
 }

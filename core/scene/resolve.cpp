@@ -90,7 +90,7 @@ void check_dam(const Document& document, const Values& values) {
       throw SceneError(document.tables.at(solid) + ": [" + solid + "] cannot stand beside [dam]; remove one");
   if (!values.has("water")) throw SceneError(document.tables.at("dam") + ": [dam] needs [water] and [air]");
   const std::vector<std::string> known{"water.material", "air.material", "air.pressure",
-                                       "fluid.shock_viscosity", "fluid.sweeps"};
+                                       "fluid.shock_viscosity", "fluid.sweeps", "fluid.sleeping_threshold"};
   for (const auto& [path, entry] : document.values) {
     const bool fluid = path.starts_with("water.") || path.starts_with("air.") || path.starts_with("fluid.");
     if (fluid && std::find(known.begin(), known.end(), path) == known.end())
@@ -106,9 +106,11 @@ void check_sections(const Document& document, const Values& values) {
       if (values.has(other))
         throw SceneError(document.tables.at(other) + ": [" + other + "] cannot stand beside [tube]; remove one");
     for (const auto& [path, entry] : document.values)
-      if (path.starts_with("fluid.") && path != "fluid.shock_viscosity" && !path.starts_with("fluid.grid_motion.x."))
+      if (path.starts_with("fluid.") && path != "fluid.shock_viscosity" && path != "fluid.sleeping_threshold" &&
+          !path.starts_with("fluid.grid_motion.x."))
         throw SceneError(entry.where + ": " + path +
-                         " cannot stand beside [tube], which has only fluid.shock_viscosity and fluid.grid_motion.x");
+                         " cannot stand beside [tube], which has only fluid.shock_viscosity, fluid.sleeping_threshold and "
+                         "fluid.grid_motion.x");
     for (const std::string side : {"tube.left", "tube.right"})
       if (!values.has(side)) throw SceneError(document.tables.at("tube") + ": [" + side + "] is missing");
     return;
@@ -171,6 +173,7 @@ void read_parts(const Values& values, Scene& scene) {
   if (values.has("tube")) {
     scene.fluid.emplace().tube = read_tube(values);
     scene.fluid->shock_viscosity = values.text("fluid.shock_viscosity");
+    scene.fluid->sleeping_threshold = values.number("fluid.sleeping_threshold");
   }
   if (values.has("dam"))
     scene.fluid.emplace(), read_dam(values, scene);

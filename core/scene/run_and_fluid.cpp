@@ -120,6 +120,7 @@ void read_dam(const Values& values, Scene& scene) {
   f.vapour_pressure = water.has("vapour_pressure") ? water.value("vapour_pressure") : 0;
   f.start = "impulsive", f.outer_boundary = "wall";
   f.shock_viscosity = values.text("fluid.shock_viscosity"), f.sweeps = values.text("fluid.sweeps");
+  f.sleeping_threshold = values.number("fluid.sleeping_threshold");
   if (f.dam->length >= f.length) values.fail("dam.length", "must be below dam.tank_length");
   if (f.dam->height >= f.top) values.fail("dam.height", "must be below dam.tank_height");
   if (f.length / f.width * (f.top / f.width) > 1e7)
@@ -140,6 +141,7 @@ void read_fluid(const Values& values, Scene& scene) {
   f.vapour_pressure = water.has("vapour_pressure") ? water.value("vapour_pressure") : 0;
   f.start = values.text("fluid.start"), f.outer_boundary = values.text("fluid.outer_boundary");
   f.shock_viscosity = values.text("fluid.shock_viscosity"), f.sweeps = values.text("fluid.sweeps");
+  f.sleeping_threshold = values.number("fluid.sleeping_threshold");
   f.bottom = (scene.ice ? scene.ice->lower_face : f.waterline) - values.number("water.depth");
   f.top = (scene.ice ? scene.ice->lower_face + scene.ice->thickness : f.waterline) + values.number("air.height");
   if (v) {

@@ -143,6 +143,9 @@ std::vector<KeyRule> fluid_rules() {
       choice("fluid.sweeps", {"alternating", "all_orders"}, "alternating",
              "orders of the axes in the remap: in turns, or in every step the mean of all six, which is the same for "
              "all axes and dearer"),
+      positive("fluid.sleeping_threshold", dim::none, "1e-7",
+               "disturbance below which bricks of 8 x 8 x 8 cells sleep: speed over sound speed, change of pressure in "
+               "half a step over the bulk modulus", 1e-3),
       positive("dam.length", dim::length, "required",
                "of the column of water along x; a scene with [dam] has [water], [air] and no solid"),
       positive("dam.height", dim::length, "required", "of the column"),

@@ -23,13 +23,28 @@ TEST(Effects, TheBaseSceneHasAllThatThisVersionOffers) {
 }
 
 TEST(Effects, WhatDoesNotExistYetIsOffAndCannotBeAskedFor) {
-  for (const std::string name : {"gradient_correction", "artificial_stress", "debris_drag", "sleeping"}) {
+  for (const std::string name : {"gradient_correction", "artificial_stress", "debris_drag"}) {
     EXPECT_FALSE(base_scene().effect(name));
     EXPECT_EQ(base_scene().effects.at(name).reason, "not available in this version");
     EXPECT_FALSE(base_scene({"effects." + name + "=off"}).effect(name));
     EXPECT_NE(message_of_settings({"effects." + name + "=on"}).find("not available in this version"),
               std::string::npos);
   }
+}
+
+TEST(Effects, FluidSleepsWhereAutoFindsItAtRestAtTheStart) {
+  const Scene dam = resolve(case_folder("dam_break"));
+  EXPECT_TRUE(dam.effect("sleeping"));
+  EXPECT_EQ(dam.fluid->sleeping_threshold, 1e-7);
+  EXPECT_NE(dam.effects.at("sleeping").reason.find("1e-07"), std::string::npos) << dam.effects.at("sleeping").reason;
+  EXPECT_FALSE(base_scene().effect("sleeping"));
+  EXPECT_EQ(base_scene().fluid->sleeping_threshold, 0);
+  EXPECT_TRUE(base_scene({"fluid.start=impulsive"}).effect("sleeping"));
+  const Scene asked = base_scene({"effects.sleeping=on", "fluid.sleeping_threshold=1e-6"});
+  EXPECT_EQ(asked.fluid->sleeping_threshold, 1e-6);
+  EXPECT_FALSE(resolve(case_folder("vehicle_drop")).effect("sleeping"));
+  EXPECT_NE(message_of(case_folder("vehicle_drop"), {.level = {}, .settings = {"effects.sleeping=on"}}).find("no fluid"),
+            std::string::npos);
 }
 
 TEST(Effects, PlanesBetweenWaterAndAirBelongToEveryFluid) {
