@@ -54,14 +54,14 @@ void begin(Run& run, const std::vector<std::string>& names) {
                  cells.loose_edges, cells.corrected_faces);
     exchange::Message message("begin");
     message.header["time"] = 0.0;
-    add_overlap(message, cells);
+    add_overlap(message, cells, fluid.grid);
     if (const SolidSide* ice = run.conversation.find(Body::ice)) run.slowest_answer = ice_share_of_step * ice->stable_step;
     bound_lag(run, cells);
     run.conversation.hub.send(fluid.name, std::move(message));
     const exchange::Message answer = run.conversation.hub.receive(fluid.name, "pressure");
     fluid.stable_step = answer.header.at("stable_step").get<double>();
     fluid.account.set_initial(answer);
-    run.overlap->set_start_forces(run.conversation, read_pressure(answer, "pressure.", cells.cell.size()));
+    run.overlap->set_start_forces(run.conversation, read_pressure(answer, "pressure.", cells));
   }
   plan_next_span(run);
   run.keeper.step = run.keeper.length = run.planned_step;
@@ -121,8 +121,14 @@ void send_span(Run& run, long frame) {
   message.header["finish"] = !run.end.empty();
   message.header["frame"] = frame;
   if (const int threads = std::exchange(run.conversation.fluid->new_threads, 0)) message.header["threads"] = threads;
-  add_overlap(message, cells);
+  add_overlap(message, cells, run.conversation.fluid->grid);
   run.conversation.hub.send(run.conversation.fluid->name, std::move(message));
+}
+
+/// The fluid computes meanwhile.
+void prepare_loads(Run& run) {
+  const auto lap = run.watch.lap("fluid_loads");
+  run.overlap->prepare();
 }
 
 exchange::Message receive_pressure(Run& run) {
@@ -148,10 +154,10 @@ void take_fluid_loads(Run& run, const exchange::Message& answer) {
     return;
   }
   FluidAnswer given;
-  given.at_start = read_pressure(answer, "pressure.previous_", run.overlap->before().cell.size());
-  given.at_end = read_pressure(answer, "pressure.", cells.cell.size());
-  if (answer.has("pressure.impulse")) given.impulse = answer.view<double>("pressure.impulse");
-  if (answer.has("pressure.impedance")) given.impedance = answer.view<double>("pressure.impedance");
+  given.at_start = read_pressure(answer, "pressure.previous_", run.overlap->before());
+  given.at_end = read_pressure(answer, "pressure.", cells);
+  if (answer.has("pressure.impulse")) given.impulse = read_at_walls(answer, "pressure.impulse", 3 * body_count, cells);
+  if (answer.has("pressure.impedance")) given.impedance = read_at_walls(answer, "pressure.impedance", 1, cells);
   run.overlap->take(run.conversation, given, length, run.ledger);
   // Where elements broke away, lighter nodes meet the water now.
   if (run.topology_changed) bound_lag(run, cells);
@@ -260,6 +266,7 @@ void advance_window(Run& run) {
   find_contact(run);
   if (fluid_steps) {
     check_cut(run);
+    prepare_loads(run);
     take_fluid_loads(run, receive_pressure(run));
   }
   if (span_ends) {

@@ -1,5 +1,4 @@
 #pragma once
-#include <span>
 #include <string>
 #include <vector>
 
@@ -17,10 +16,10 @@ struct WallPressure {
 
 /// What the fluid gave to the walls during a span.
 struct FluidAnswer {
-  WallPressure at_start, at_end;    ///< of the cut before and of the last one
-  std::span<const double> impulse;  ///< [entries of the last cut][2][3] N s, given otherwise than by pressure; spreads
-                                    ///< over a cell's pieces of wall by area. May be empty
-  std::span<const double> impedance;  ///< [entries of the last cut] kg/(m^2 s), at each cell's wall. May be empty
+  WallPressure at_start, at_end;  ///< of the cut before and of the last one
+  std::vector<double> impulse;  ///< [entries of the last cut][2][3] N s, given otherwise than by pressure; spreads over
+                                ///< a cell's pieces of wall by area. May be empty
+  std::vector<double> impedance;  ///< [entries of the last cut] kg/(m^2 s), at each cell's wall. May be empty
 };
 
 /// What the coupler knows of the fluid participant.
@@ -34,11 +33,17 @@ struct FluidSide {
 
 FluidSide read_fluid_ready(const std::string& name, const exchange::Message& ready);
 
-/// Adds the overlap arrays of docs/protocol.md to a message for the fluid.
-void add_overlap(exchange::Message& message, const geometry::CutCells& cut);
+/// Adds the overlap arrays of docs/protocol.md to a message for the fluid: what is wholly solid in runs, walls only
+/// where there are some.
+void add_overlap(exchange::Message& message, const geometry::CutCells& cut, const geometry::GridLines& grid);
 
-/// Pressures of one kind from a `pressure` message: "pressure.values" belong to the overlap sent last,
-/// "pressure.previous_values" to the one before. Throws ProtocolError when the number does not fit.
-WallPressure read_pressure(const exchange::Message& message, const std::string& prefix, std::size_t entries);
+/// Pressures of one kind from a `pressure` message, for all entries of the cut, 0 without wall: "pressure.values"
+/// belong to the overlap sent last, "pressure.previous_values" to the one before. Throws ProtocolError when the number
+/// does not fit.
+WallPressure read_pressure(const exchange::Message& message, const std::string& prefix, const geometry::CutCells& cut);
+
+/// Any other array of a `pressure` message that has `stride` values per wall, likewise for all entries of the cut.
+std::vector<double> read_at_walls(const exchange::Message& message, const std::string& name, std::size_t stride,
+                                  const geometry::CutCells& cut);
 
 }  // namespace polynya::coupler

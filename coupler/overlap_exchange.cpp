@@ -55,17 +55,27 @@ const geometry::CutCells& OverlapExchange::cut(const Conversation& conversation,
   return now_.cells;
 }
 
+void OverlapExchange::prepare() {
+  const std::vector<geometry::WallPiece>& pieces = now_.cells.pieces;
+  now_.piece_size.resize(pieces.size());
+  now_.wall_size.assign(now_.cells.cell.size() * body_count, 0.0);
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    now_.piece_size[p] = contact::norm(pieces[p].area);
+    now_.wall_size[at_wall(pieces[p])] += now_.piece_size[p];
+  }
+}
+
 void OverlapExchange::take(Conversation& conversation, const FluidAnswer& answer, double span, Ledger& ledger) const {
   std::vector<geometry::WallForces> at_start, at_end;
   PerBody carried, impedance;
-  // Four sums over the pieces of wall, of which none needs another.
-  compute::for_chunks(4, 1, [&](std::size_t sum, std::size_t) {
+  // Four sums over the pieces of wall, of which none needs another; the longest first.
+  compute::for_uneven_chunks(4, 1, [&](std::size_t sum, std::size_t) {
     const auto forces = [](const Cut& cut, const WallPressure& pressure) {
       return geometry::pressure_forces(cut.cells, cut.views(), pressure.value, pressure.gradient_z);
     };
     if (sum == 0) at_start = forces(before_, answer.at_start);
-    if (sum == 1 && !answer.impedance.empty()) impedance = impedances(conversation, answer.impedance);
-    if (sum == 2) at_end = forces(now_, answer.at_end);
+    if (sum == 1) at_end = forces(now_, answer.at_end);
+    if (sum == 2 && !answer.impedance.empty()) impedance = impedances(conversation, answer.impedance);
     if (sum == 3 && !answer.impulse.empty()) carried = wall_impulses(conversation, answer.impulse);
   });
   book(conversation, before_, at_start, 0.5 * span, ledger);
@@ -109,18 +119,17 @@ void OverlapExchange::book(Conversation& conversation, const Cut& cut, const std
 
 OverlapExchange::PerBody OverlapExchange::wall_impulses(const Conversation& conversation,
                                                         std::span<const double> impulse) const {
-  std::vector<double> area(now_.cells.cell.size() * body_count, 0.0);
-  for (const geometry::WallPiece& piece : now_.cells.pieces) area[at_wall(piece)] += contact::norm(piece.area);
   PerBody all;
   std::array<const std::int32_t*, body_count> triangles{};
   for (const SolidSide& side : conversation.solids) {
     all[static_cast<std::size_t>(side.body)].assign(side.positions.size(), 0.0);
     triangles[static_cast<std::size_t>(side.body)] = side.triangles.data();
   }
-  for (const geometry::WallPiece& piece : now_.cells.pieces) {
+  for (std::size_t p = 0; p < now_.cells.pieces.size(); ++p) {
+    const geometry::WallPiece& piece = now_.cells.pieces[p];
     const double* given = &impulse[3 * at_wall(piece)];
-    if ((given[0] == 0 && given[1] == 0 && given[2] == 0) || !(area[at_wall(piece)] > 0)) continue;
-    const double share = contact::norm(piece.area) / area[at_wall(piece)];
+    if ((given[0] == 0 && given[1] == 0 && given[2] == 0) || !(now_.wall_size[at_wall(piece)] > 0)) continue;
+    const double share = now_.piece_size[p] / now_.wall_size[at_wall(piece)];
     const auto body = static_cast<std::size_t>(piece.body);
     const std::int32_t* v = triangles[body] + 3 * static_cast<std::size_t>(piece.triangle);
     for (std::size_t i = 0; i < 3; ++i)
@@ -138,8 +147,9 @@ OverlapExchange::PerBody OverlapExchange::impedances(const Conversation& convers
     all[static_cast<std::size_t>(side.body)].assign(6 * side.vertices(), 0.0);
     triangles[static_cast<std::size_t>(side.body)] = side.triangles.data();
   }
-  for (const geometry::WallPiece& piece : now_.cells.pieces) {
-    const double at_cell = impedance[static_cast<std::size_t>(piece.entry)], size = contact::norm(piece.area);
+  for (std::size_t p = 0; p < now_.cells.pieces.size(); ++p) {
+    const geometry::WallPiece& piece = now_.cells.pieces[p];
+    const double at_cell = impedance[static_cast<std::size_t>(piece.entry)], size = now_.piece_size[p];
     if (size == 0 || at_cell == 0) continue;
     const double n[3] = {piece.area[0] / size, piece.area[1] / size, piece.area[2] / size};
     const double products[6] = {n[0] * n[0], n[1] * n[1], n[2] * n[2], n[0] * n[1], n[1] * n[2], n[2] * n[0]};

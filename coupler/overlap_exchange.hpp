@@ -18,11 +18,14 @@ class OverlapExchange {
   /// "debris_displacement" take the time.
   const geometry::CutCells& cut(const Conversation& conversation, compute::Stopwatch& watch);
 
+  /// What `take` needs of the last cut alone: while the fluid computes, there is time for it.
+  void prepare();
+
   /// Remembers with the solids the forces of the fluid's pressure at time 0, which belongs to the last cut.
   void set_start_forces(Conversation& conversation, const WallPressure& pressure) const;
 
   /// Adds the impulses of a span of length `span` (s) to the solids' outstanding fluid impulses and to the ledger, and
-  /// gives the vertices their impedance. Surfaces may have lost vertices since the cut before.
+  /// gives the vertices their impedance. After `prepare`. Surfaces may have lost vertices since the cut before.
   void take(Conversation& conversation, const FluidAnswer& answer, double span, Ledger& ledger) const;
 
   const geometry::CutCells& before() const { return before_.cells; }
@@ -46,6 +49,8 @@ class OverlapExchange {
       geometry::BodySurface view() const { return {positions, velocities, triangles}; }
     };
     std::vector<Surface> surfaces;
+    std::vector<double> piece_size;  ///< [pieces] m^2
+    std::vector<double> wall_size;   ///< [entries][bodies] m^2, their sum by cell
     std::vector<geometry::BodySurface> views() const;
   };
   /// Adds the impulses of one cut's pressures, which acted for `time` (s).

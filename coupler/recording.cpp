@@ -15,6 +15,7 @@ exchange::Recorder::Options options_of(const scene::Record& record) {
   std::istringstream names(record.participants);
   for (std::string name; std::getline(names, name, ',');) options.participants.push_back(name);
   options.selection = {record.times, record.windows};
+  options.compression = record.compression == "deflate" ? exchange::Compression::deflate : exchange::Compression::none;
   if (record.has_region())
     options.region = {record.x_min.value_or(-infinity), record.y_min.value_or(-infinity),
                       record.z_min.value_or(-infinity), record.x_max.value_or(infinity),

@@ -168,6 +168,8 @@ void SolidSide::restart_mean() {
 void add_loads(exchange::Message& message, const SolidSide& side) {
   std::vector<std::int64_t> vertices;
   std::vector<double> forces;
+  vertices.reserve(side.vertices());
+  forces.reserve(3 * side.vertices());
   for (std::size_t v = 0; v < side.vertices(); ++v) {
     const double force[3] = {side.contact_force[3 * v] + side.fluid_force[3 * v],
                              side.contact_force[3 * v + 1] + side.fluid_force[3 * v + 1],

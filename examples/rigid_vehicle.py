@@ -38,7 +38,7 @@ class Coupler:
     def send(self, kind, arrays={}, **fields):
         arrays = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
         described = [{"name": n, "type": a.dtype.str[1:], "shape": a.shape} for n, a in arrays.items()]
-        header = {"protocol": 1, "run": self.run, "kind": kind, "part": 1, "parts": 1, "arrays": described, **fields}
+        header = {"protocol": 2, "run": self.run, "kind": kind, "part": 1, "parts": 1, "arrays": described, **fields}
         self.socket.send_multipart([json.dumps(header).encode(), *arrays.values()])
 
     def receive(self, kind):

@@ -4,21 +4,12 @@
 
 #include "core/compute/threads.hpp"
 #include "core/exchange/errors.hpp"
+#include "fluid_solver/overlap_message.hpp"
 
 namespace polynya::fluid {
 namespace {
 
 std::int64_t rows(std::size_t count) { return static_cast<std::int64_t>(count); }
-
-template <class T>
-std::vector<T> copy(const exchange::Message& message, const std::string& name, std::size_t expected) {
-  const auto view = message.view<T>(name);
-  if (view.size() != expected) {
-    throw exchange::ProtocolError("message '" + message.kind() + "': array '" + name + "' holds " + std::to_string(view.size()) +
-                                  " values, expected " + std::to_string(expected));
-  }
-  return {view.begin(), view.end()};
-}
 
 exchange::Message make_ready(const Fluid& fluid) {
   exchange::Message ready("ready");
@@ -35,7 +26,7 @@ exchange::Message make_ready(const Fluid& fluid) {
 
 void add_pressure(exchange::Message& message, const Fluid& fluid, const Overlap& overlap, const std::string& prefix) {
   std::vector<double> value, gradient;
-  overlap_pressure(fluid, overlap, value, gradient);
+  overlap_pressure(fluid, overlap.walled, value, gradient);
   message.add<double>(prefix + "values", {rows(value.size())}, value);
   message.add<double>(prefix + "gradient_z", {rows(gradient.size())}, gradient);
 }
@@ -62,18 +53,20 @@ void start(const scene::Scene& scene, Fluid& fluid, const Overlap& overlap) {
                fluid.account.mass[air], stable_step(fluid), fluid.groups.count());
 }
 
-/// Walls stand in the order of the overlap's cells. A wall that moves in a fluid which cavitates meets no resistance.
-void add_impulse_and_impedance(exchange::Message& message, const Fluid& fluid) {
-  std::vector<double> impedance;
-  impedance.reserve(fluid.after.walls.size());
-  for (const WallPiece& wall : fluid.after.walls)
-    impedance.push_back(fluid.bulk_modulus[wall.cell] > 0 ? fluid.density[wall.cell] * fluid.sound_speed[wall.cell] : 0.0);
-  message.add<double>("pressure.impedance", {static_cast<std::int64_t>(impedance.size())}, impedance);
-  std::vector<double> impulse;
-  impulse.reserve(6 * fluid.wall_impulse.size());
-  for (const auto& bodies : fluid.wall_impulse)
-    for (const auto& body : bodies) impulse.insert(impulse.end(), body.begin(), body.end());
-  message.add<double>("pressure.impulse", {static_cast<std::int64_t>(fluid.wall_impulse.size()), 2, 3}, impulse);
+/// A wall that moves in a fluid which cavitates meets no resistance.
+void add_impulse_and_impedance(exchange::Message& message, const Fluid& fluid, const Overlap& overlap) {
+  std::vector<double> impedance, impulse;
+  impedance.reserve(overlap.walled.size());
+  impulse.reserve(6 * overlap.walled.size());
+  std::size_t piece = 0;
+  for (const std::int64_t number : overlap.walled) {
+    const std::ptrdiff_t cell = fluid.grid.from_message(number);
+    while (fluid.after.walls[piece].cell != cell) ++piece;  // both ascend, and cells without wall have a piece as well
+    impedance.push_back(fluid.bulk_modulus[cell] > 0 ? fluid.density[cell] * fluid.sound_speed[cell] : 0.0);
+    for (const auto& body : fluid.wall_impulse[piece]) impulse.insert(impulse.end(), body.begin(), body.end());
+  }
+  message.add<double>("pressure.impedance", {rows(impedance.size())}, impedance);
+  message.add<double>("pressure.impulse", {rows(impedance.size()), 2, 3}, impulse);
 }
 
 double positive_span(const exchange::Message& message, double time) {
@@ -84,31 +77,13 @@ double positive_span(const exchange::Message& message, double time) {
 
 }  // namespace
 
-Overlap read_overlap(const exchange::Message& message) {
-  Overlap overlap;
-  const auto cells = message.view<std::int64_t>("cell");
-  overlap.cell.assign(cells.begin(), cells.end());
-  const std::size_t m = cells.size();
-  overlap.solid_volume = copy<double>(message, "solid_volume", m);
-  overlap.debris_volume = copy<double>(message, "debris_volume", m);
-  overlap.wall_area = copy<double>(message, "wall_area", 6 * m);
-  overlap.wall_velocity = copy<double>(message, "wall_velocity", 6 * m);
-  constexpr std::array<const char*, 3> names{"face_x", "face_y", "face_z"};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto faces = message.view<std::int64_t>(names[axis]);
-    overlap.face[axis].assign(faces.begin(), faces.end());
-    overlap.face_solid[axis] = copy<double>(message, std::string(names[axis]) + ".solid", faces.size());
-  }
-  return overlap;
-}
-
 void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant& coupler, Output& output) {
   fill_hydrostatic(fluid, {}, scene.fluid->waterline);
   Overlap overlap;
   {
     const auto lap = fluid.watch.lap("messages");
     coupler.send(make_ready(fluid));
-    overlap = read_overlap(coupler.receive("begin"));
+    overlap = read_overlap(coupler.receive("begin"), fluid.grid);
   }
   {
     const auto lap = fluid.watch.lap("start");
@@ -124,7 +99,7 @@ void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant&
     {
       const auto lap = fluid.watch.lap("messages");
       span = coupler.receive("span");
-      next = read_overlap(span);
+      next = read_overlap(span, fluid.grid);
     }
     compute::use_threads(span.header.value("threads", 0));
     const double dt = positive_span(span, fluid.time);
@@ -140,7 +115,7 @@ void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant&
       exchange::Message answer = make_pressure(fluid, next);
       answer.header["span"] = span.header.value("span", 0L);
       add_pressure(answer, fluid, overlap, "pressure.previous_");
-      add_impulse_and_impedance(answer, fluid);
+      add_impulse_and_impedance(answer, fluid, next);
       coupler.send(std::move(answer));
       overlap = std::move(next);
     }

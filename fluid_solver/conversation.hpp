@@ -6,9 +6,6 @@
 
 namespace polynya::fluid {
 
-/// The overlap arrays of a `begin` or `span` message. Throws ProtocolError when one is missing or sizes disagree.
-Overlap read_overlap(const exchange::Message& message);
-
 /// Plays the fluid's part of docs/protocol.md, section 5, to the end.
 void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant& coupler, Output& output);
 

@@ -81,13 +81,13 @@ double wall_pressure(const Fluid& fluid, std::ptrdiff_t cell) {
   return fluid.steps > 0 || fluid.predicted_pressure[cell] != 0 ? fluid.predicted_pressure[cell] : fluid.pressure[cell];
 }
 
-void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<double>& value,
+void overlap_pressure(const Fluid& fluid, std::span<const std::int64_t> cells, std::vector<double>& value,
                       std::vector<double>& gradient) {
-  const std::size_t count = overlap.cell.size();
+  const std::size_t count = cells.size();
   value.assign(count, 0.0);
   gradient.assign(count, 0.0);
   for (std::size_t m = 0; m < count; ++m) {
-    const std::ptrdiff_t c = fluid.grid.from_message(overlap.cell[m]);
+    const std::ptrdiff_t c = fluid.grid.from_message(cells[m]);
     value[m] = wall_pressure(fluid, c) - fluid.setup.atmospheric_pressure;
     gradient[m] = fluid.density[c] * fluid.setup.gravity;
   }

@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -185,9 +187,9 @@ double stable_step(const Fluid& fluid);
 /// solids, which is no load.
 double wall_pressure(const Fluid& fluid, std::ptrdiff_t cell);
 
-/// Gauge pressure and vertical pressure gradient (density times gravity) for the entries of an overlap, in its order:
+/// Gauge pressure and vertical pressure gradient (density times gravity) in cells (numbers of the messages):
 /// p(z) = value - gradient (z - z of the whole cell's centre). After a step: what the step did to the fluid.
-void overlap_pressure(const Fluid& fluid, const Overlap& overlap, std::vector<double>& value,
+void overlap_pressure(const Fluid& fluid, std::span<const std::int64_t> cells, std::vector<double>& value,
                       std::vector<double>& gradient);
 
 /// Refreshes pressure, density and sound speed from the state (also what a step does first).

@@ -36,6 +36,10 @@ struct Grid {
   double centre_x(int i) const { return 0.5 * (x[i - 1] + x[i]); }
   double centre_y(int j) const { return 0.5 * (y[j - 1] + y[j]); }
   double centre_z(int k) const { return 0.5 * (z[k - 1] + z[k]); }
+  /// Faces of one normal in the messages.
+  std::int64_t face_count(int normal) const {
+    return static_cast<std::int64_t>(nx + (normal == 0)) * (ny + (normal == 1)) * (nz + (normal == 2));
+  }
   std::size_t cells() const { return static_cast<std::size_t>(nx) * ny * nz; }
   std::ptrdiff_t stride(int axis) const { return axis == 0 ? 1 : axis == 1 ? sy : sz; }
   bool inside(std::ptrdiff_t cell) const { return cell_volume[static_cast<std::size_t>(cell)] > 0; }

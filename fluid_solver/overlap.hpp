@@ -13,6 +13,7 @@ struct Overlap {
   std::vector<double> debris_volume;  ///< m^3 displaced by particles, not part of solid_volume
   std::array<std::vector<std::int64_t>, 3> face;      ///< x-, y-, z-faces
   std::array<std::vector<double>, 3> face_solid;      ///< their solid fraction, 0..1
+  std::vector<std::int64_t> walled;   ///< the cells that hold wall, ascending
   std::vector<double> wall_area;      ///< [m][2][3] area vector of each body, pointing into the body, m^2
   std::vector<double> wall_velocity;  ///< [m][2][3] mean velocity of that piece of wall, m/s
 };

@@ -47,6 +47,7 @@ struct CutCells {
   std::vector<double> wall_area;  ///< [entries][bodies][3], m^2, INTO the body; summed over the bodies it equals the
                                   ///< sum over the cell's faces of solid fraction * outward face vector
   std::vector<double> wall_velocity;  ///< [entries][bodies][3], m/s, mean over the wall in the cell; 0 without wall
+  std::vector<std::uint8_t> walled;   ///< [entries], 1: `pieces` has pieces of the entry
   std::array<CutFaces, 3> faces;      ///< normal to x, y, z
   std::vector<WallPiece> pieces;      ///< sum of area per entry and body = -wall_area; mostly in the order of triangles
 

@@ -47,6 +47,7 @@ void scatter_cells(const GridLines& grid, Rows& rows, CutCells& out) {
       out.cell[at] = grid.cell_index(place.i, place.j, k);
       out.solid_volume[at] = std::clamp(total, 0.0, 1.0) * volume;
       out.debris_volume[at] = 0;
+      out.walled[at] = 0;
       if (place.k == k) rows.position[r] = static_cast<std::int64_t>(at);
     }
   }
@@ -75,10 +76,12 @@ double height(const GridLines& grid, const BodySurface& surface, const PieceReco
   return height;
 }
 
-/// Tells the records where their cells went.
-void note_entries(ColumnChunk& chunk) {
-  for (std::size_t r = 0; r < chunk.record.size(); ++r)
+/// Tells the records where their cells went, and the cells that they have wall.
+void note_entries(ColumnChunk& chunk, CutCells& out) {
+  for (std::size_t r = 0; r < chunk.record.size(); ++r) {
     chunk.record[r]->entry = chunk.row[r] < 0 ? -1 : chunk.cells.position[static_cast<std::size_t>(chunk.row[r])];
+    if (chunk.row[r] >= 0) out.walled[static_cast<std::size_t>(chunk.record[r]->entry)] = 1;
+  }
 }
 
 void resize(CutCells& out, std::size_t entries) {
@@ -88,6 +91,7 @@ void resize(CutCells& out, std::size_t entries) {
   out.body_volume.resize(entries * out.bodies);
   out.wall_area.resize(entries * out.bodies * 3);
   out.wall_velocity.resize(entries * out.bodies * 3);
+  out.walled.resize(entries);
 }
 
 void resize(CutFaces& out, std::size_t faces) {
@@ -134,7 +138,7 @@ void Cutter::Workspace::clip(std::span<const BodySurface> bodies) {
     clipped[b].resize((bodies[b].triangles.size() / 3 + triangle_chunk - 1) / triangle_chunk);
     for (std::size_t c = 0; c < clipped[b].size(); ++c) clips.push_back({b, c});
   }
-  compute::for_chunks(clips.size(), 1, [&](std::size_t at, std::size_t) {
+  compute::for_uneven_chunks(clips.size(), 1, [&](std::size_t at, std::size_t) {
     const auto [b, c] = clips[at];
     const std::size_t triangles = bodies[b].triangles.size() / 3, begin = c * triangle_chunk;
     clipped[b][c].clip(locators, surfaces[b].corners(), bodies[b].triangles, begin,
@@ -144,7 +148,7 @@ void Cutter::Workspace::clip(std::span<const BodySurface> bodies) {
 
 void Cutter::Workspace::sum(std::span<const BodySurface> bodies) {
   chunks.resize((columns() + column_chunk - 1) / column_chunk);
-  compute::for_chunks(columns(), column_chunk, [&](std::size_t begin, std::size_t end) {
+  compute::for_uneven_chunks(columns(), column_chunk, [&](std::size_t begin, std::size_t end) {
     sum_columns(grid, bodies, clipped, begin, end, chunks[begin / column_chunk]);
   });
 }
@@ -163,11 +167,11 @@ void Cutter::Workspace::collect(CutCells& out) {
   }
   resize(out, entries);
   for (std::size_t axis = 0; axis < 3; ++axis) resize(out.faces[axis], faces[axis]);
-  compute::for_chunks(chunks.size(), 1, [&](std::size_t c, std::size_t) {
+  compute::for_uneven_chunks(chunks.size(), 1, [&](std::size_t c, std::size_t) {
     scatter_cells(grid, chunks[c].cells, out);
     for (std::size_t axis = 0; axis < 3; ++axis)
       scatter_faces(chunks[c].faces[axis], grid.cells(0) + (axis == 0), grid.cells(1) + (axis == 1), out.faces[axis]);
-    note_entries(chunks[c]);
+    note_entries(chunks[c], out);
   });
 }
 
@@ -179,7 +183,7 @@ void Cutter::Workspace::collect_pieces(std::span<const BodySurface> bodies, CutC
     piece_start.push_back(piece_start.back() + count);
   }
   out.pieces.resize(piece_start.back());
-  compute::for_chunks(clips.size(), 1, [&](std::size_t at, std::size_t) {
+  compute::for_uneven_chunks(clips.size(), 1, [&](std::size_t at, std::size_t) {
     const auto [b, c] = clips[at];
     WallPiece* next = out.pieces.data() + piece_start[at];
     for (const PieceRecord& piece : clipped[b][c].records)

@@ -35,8 +35,7 @@ void Message::add(std::string name, std::vector<std::int64_t> shape, std::span<c
     throw ProtocolError("array '" + array.name + "' of message '" + kind() + "': shape " + shape_text(array) +
                         " does not hold " + std::to_string(data.size()) + " values");
   if (has(array.name)) throw ProtocolError("message '" + kind() + "' has two arrays '" + array.name + "'");
-  const auto bytes = std::as_bytes(data);
-  array.bytes.assign(bytes.begin(), bytes.end());
+  array.bytes = Bytes(std::as_bytes(data));
   arrays.push_back(std::move(array));
 }
 

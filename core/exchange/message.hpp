@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/exchange/bytes.hpp"
+
 namespace polynya::exchange {
 
 /// One named, typed, shaped array: little-endian, C order. Types: "f8", "i8", "i4", "u1".
@@ -14,7 +16,7 @@ struct Array {
   std::string name;
   std::string type;
   std::vector<std::int64_t> shape;
-  std::vector<std::byte> bytes;
+  Bytes bytes;
 };
 
 /// A header of scalars and any number of arrays. On the wire: one JSON frame and one raw frame per array.

@@ -22,7 +22,7 @@ using hdf5::Handle;
 constexpr const char* format_name = "polynya-record";
 constexpr std::int64_t format_version = 2;
 constexpr std::size_t batch_bytes = 1 << 20;
-constexpr std::size_t large_array = 1 << 15;
+constexpr std::size_t large_array = 1 << 15, chunk_bytes = 1 << 18;
 
 hid_t type_of(const std::string& type) {
   if (type == "f8") return H5T_IEEE_F64LE;
@@ -42,10 +42,24 @@ Handle group(hid_t parent, const std::string& name) {
   return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name};
 }
 
-/// A data set, empty yet. Not compressed: even the fastest filter takes longer than to write what it saves.
-Handle make_rows(hid_t parent, const char* name, hid_t type, const std::vector<hsize_t>& shape) {
+/// Rows in chunks that are compressed one by one.
+void compress_rows(hid_t properties, const char* name, hid_t type, std::vector<hsize_t> shape) {
+  hsize_t row = H5Tget_size(type);
+  for (std::size_t d = 1; d < shape.size(); ++d) row *= shape[d];
+  shape[0] = std::min(shape[0], std::max<hsize_t>(1, chunk_bytes / row));
+  check(H5Pset_chunk(properties, static_cast<int>(shape.size()), shape.data()), name);
+  check(H5Pset_shuffle(properties), name);
+  check(H5Pset_deflate(properties, 1), name);
+}
+
+/// A data set, empty yet.
+Handle make_rows(hid_t parent, const char* name, hid_t type, const std::vector<hsize_t>& shape,
+                 Compression compression = Compression::none) {
   const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, name);
-  return {H5Dcreate2(parent, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, name};
+  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
+  const bool empty = std::find(shape.begin(), shape.end(), 0) != shape.end();
+  if (compression == Compression::deflate && !empty) compress_rows(properties, name, type, shape);
+  return {H5Dcreate2(parent, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, name};
 }
 
 template <class T>
@@ -103,7 +117,7 @@ void write_values(hid_t set, const std::string& name, const std::vector<hsize_t>
     batch.clear();
   };
   for (std::size_t i = 0; i < series.values.size(); ++i) {
-    const std::vector<std::byte>& values = series.values[i];
+    const Bytes& values = series.values[i];
     const bool large = values.size() >= large_array;
     if (begun < i && (large || batch.size() + values.size() > batch_bytes)) write(i, batch.data());
     if (large)
@@ -114,20 +128,21 @@ void write_values(hid_t set, const std::string& name, const std::vector<hsize_t>
   if (begun < series.values.size()) write(series.values.size(), batch.data());
 }
 
-void write_series(hid_t parent, const std::string& name, const ArraySeries& series) {
+void write_series(hid_t parent, const std::string& name, const ArraySeries& series, Compression compression) {
   const Handle home = group(parent, link_name(name));
   std::vector<hsize_t> shape{static_cast<hsize_t>(series.first.back())};
   for (const std::int64_t extent : series.trailing) shape.push_back(static_cast<hsize_t>(extent));
   hdf5::write_text(home, "type", series.type);
   const std::int64_t scalar = series.scalar ? 1 : 0;
   hdf5::write_numbers<std::int64_t>(home, "scalar", {&scalar, 1});
-  const Handle set = make_rows(home, "values", type_of(series.type), shape);
+  const Handle set = make_rows(home, "values", type_of(series.type), shape, compression);
   write_values(set, name, shape, series);
   write_column(home, "message", H5T_STD_I64LE, series.message);
   write_column(home, "first", H5T_STD_I64LE, series.first);
 }
 
-void write_all(const std::string& path, const RecordSegment& segment, const RecordLabel& label) {
+void write_all(const std::string& path, const RecordSegment& segment, const RecordLabel& label,
+               Compression compression) {
   const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path);
   write_label(file, label);
   {
@@ -142,7 +157,7 @@ void write_all(const std::string& path, const RecordSegment& segment, const Reco
   std::optional<Handle> home;
   for (const auto& [key, series] : segment.series) {
     if (!home || kind != key.first) home.reset(), home.emplace(group(arrays, link_name(kind = key.first)));
-    write_series(*home, key.second, series);
+    write_series(*home, key.second, series, compression);
   }
   check(H5Fflush(file, H5F_SCOPE_GLOBAL), path);
 }
@@ -188,9 +203,10 @@ ArraySeries read_series(hid_t kind, const std::string& name) {
   const std::size_t row = byte_count({name, series.type, series.trailing, {}});
   for (std::size_t i = 0; i < series.message.size(); ++i) {
     const auto first = static_cast<hsize_t>(series.first[i]), rows = static_cast<hsize_t>(series.first[i + 1]) - first;
-    std::vector<std::byte>& values = series.values.emplace_back(row * rows);
+    std::vector<std::byte> values(row * rows);
     transfer_rows(set, name, shape, first, rows,
                   [&](hid_t part, hid_t all) { return H5Dread(set, type, part, all, H5P_DEFAULT, values.data()); });
+    series.values.emplace_back(std::move(values));
   }
   return series;
 }
@@ -244,11 +260,12 @@ std::string segment_path(const std::string& folder, const std::string& participa
   return folder + "/" + participant + digits;
 }
 
-void write_segment(const std::string& path, const RecordSegment& segment, const RecordLabel& label) {
+void write_segment(const std::string& path, const RecordSegment& segment, const RecordLabel& label,
+                   Compression compression) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported once, by the exception
   results::create_folder_of(path);
   try {
-    write_all(results::aside(path), segment, label);
+    write_all(results::aside(path), segment, label, compression);
   } catch (const hdf5::Refused& error) {
     throw results::ResultsError("cannot write " + path + ": HDF5 could not store " + error.what() + " (disk full?)");
   }

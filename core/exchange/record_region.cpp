@@ -19,12 +19,14 @@ Array rows_of(const Array& array, const std::vector<bool>& mask) {
   const std::size_t size = mask.empty() ? 0 : array.bytes.size() / mask.size();
   Array kept{array.name, array.type, array.shape, {}};
   kept.shape[0] = std::count(mask.begin(), mask.end(), true);
-  kept.bytes.reserve(static_cast<std::size_t>(kept.shape[0]) * size);
+  std::vector<std::byte> bytes;
+  bytes.reserve(static_cast<std::size_t>(kept.shape[0]) * size);
   for (std::size_t row = 0; row < mask.size(); ++row) {
     if (!mask[row]) continue;
     const auto first = array.bytes.begin() + static_cast<std::ptrdiff_t>(row * size);
-    kept.bytes.insert(kept.bytes.end(), first, first + static_cast<std::ptrdiff_t>(size));
+    bytes.insert(bytes.end(), first, first + static_cast<std::ptrdiff_t>(size));
   }
+  kept.bytes = Bytes(std::move(bytes));
   return kept;
 }
 
@@ -70,10 +72,28 @@ void RecordRegion::note_cells(const Message& message) {
     for (const std::int64_t index : message.view<std::int64_t>(name)) kept.push_back(inside(place(index, face_axis)));
     return kept;
   };
-  cells_before_ = std::move(cells_);
+  walls_before_ = std::move(walls_);
+  walls_ = mask("wall", -1);
   cells_ = mask("cell", -1);
   for (int axis = 0; axis < 3; ++axis)
     if (message.has(face_names[axis])) faces_[axis] = mask(face_names[axis], axis);
+}
+
+/// The parts of runs (first and how many) that lie inside.
+Array RecordRegion::runs_inside(const Message& message, const std::string& name, int face_axis) const {
+  std::vector<std::int64_t> kept;
+  const auto runs = message.view<std::int64_t>(name);
+  for (std::size_t r = 0; r + 1 < runs.size(); r += 2)
+    for (std::int64_t index = runs[r]; index < runs[r] + runs[r + 1]; ++index) {
+      if (!inside(place(index, face_axis))) continue;
+      if (!kept.empty() && kept[kept.size() - 2] + kept.back() == index)
+        ++kept.back();
+      else
+        kept.insert(kept.end(), {index, 1});
+    }
+  Message part;
+  part.add<std::int64_t>(name, {static_cast<std::int64_t>(kept.size() / 2), 2}, kept);
+  return std::move(part.arrays.front());
 }
 
 const RecordRegion::Mask* RecordRegion::mask_for(const std::string& name) const {
@@ -81,11 +101,12 @@ const RecordRegion::Mask* RecordRegion::mask_for(const std::string& name) const 
     return &vertices_;
   if (name == "surface.triangles") return &triangles_;
   if (is_one_of(name, {"load.vertices", "load.forces"})) return &loads_;
-  if (is_one_of(name, {"cell", "solid_volume", "debris_volume", "wall_area", "wall_velocity"})) return &cells_;
+  if (is_one_of(name, {"cell", "solid_volume", "debris_volume"})) return &cells_;
+  if (is_one_of(name, {"wall", "wall_area", "wall_velocity"})) return &walls_;
   for (int axis = 0; axis < 3; ++axis)
     if (name.starts_with(face_names[axis])) return &faces_[axis];
-  if (name.starts_with("pressure.previous_")) return &cells_before_;
-  if (name.starts_with("pressure.")) return &cells_;
+  if (name.starts_with("pressure.previous_")) return &walls_before_;
+  if (name.starts_with("pressure.")) return &walls_;
   return nullptr;
 }
 
@@ -106,6 +127,12 @@ Message RecordRegion::restrict(const Message& message) {
   Message part;
   part.header = message.header;
   for (const Array& array : message.arrays) {
+    if (array.name.ends_with(".full")) {
+      int axis = 2;
+      while (axis >= 0 && !array.name.starts_with(face_names[axis])) --axis;
+      part.arrays.push_back(runs_inside(message, array.name, axis));  // no axis: of cells
+      continue;
+    }
     const Mask* mask = mask_for(array.name);
     part.arrays.push_back(mask == nullptr ? array : rows_of(array, *mask));
   }

@@ -26,11 +26,12 @@ class RecordRegion {
   void note_vertices(const Message& message);
   void note_cells(const Message& message);
   std::array<double, 3> place(std::int64_t index, int face_axis) const;
+  Array runs_inside(const Message& message, const std::string& name, int face_axis) const;
   const Mask* mask_for(const std::string& array) const;
 
   std::array<double, 6> box_;
   std::array<std::vector<double>, 3> lines_;  ///< m, of the fluid's grid
-  Mask vertices_, triangles_, loads_, cells_, cells_before_;
+  Mask vertices_, triangles_, loads_, cells_, walls_, walls_before_;
   std::array<Mask, 3> faces_;
 };
 

@@ -12,6 +12,9 @@
 
 namespace polynya::exchange {
 
+/// Of the arrays of a record's file; readers need not know. deflate: HDF5's own filters shuffle and deflate, level 1.
+enum class Compression { none, deflate };
+
 enum class Sender : std::uint8_t { participant = 0, coupler = 1 };
 
 /// A message, who sent it, and when in the run: the window (of a fluid: the span) and the time (s) that the
@@ -33,11 +36,11 @@ struct RecordLabel {
 /// All arrays of one name in one kind of message, one behind the other along their first extent.
 struct ArraySeries {
   std::string type;
-  std::vector<std::int64_t> trailing;          ///< extents after the first
-  bool scalar = false;                         ///< shape [] each
-  std::vector<std::int64_t> message;           ///< which messages of the segment carry it
-  std::vector<std::int64_t> first{0};          ///< their first rows, and one behind the last
-  std::vector<std::vector<std::byte>> values;  ///< one per message
+  std::vector<std::int64_t> trailing;  ///< extents after the first
+  bool scalar = false;                 ///< shape [] each
+  std::vector<std::int64_t> message;   ///< which messages of the segment carry it
+  std::vector<std::int64_t> first{0};  ///< their first rows, and one behind the last
+  std::vector<Bytes> values;           ///< one per message
 };
 
 /// A part of a conversation as it lies in one file. Header frames are kept as they travel (docs/protocol.md), with the

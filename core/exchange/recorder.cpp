@@ -55,12 +55,13 @@ struct Progress {
 struct Conversation {
   RecordLabel label;
   std::optional<RecordRegion> region;
+  Compression compression = Compression::none;
   RecordSegment segment;
   int files = 0;
 
   void write(const std::string& folder) {
     if (segment.header.empty()) return;
-    write_segment(segment_path(folder, label.participant, files++), segment, label);
+    write_segment(segment_path(folder, label.participant, files++), segment, label, compression);
     segment = {};
   }
 
@@ -171,6 +172,7 @@ struct Recorder::State {
     Conversation& conversation = conversations[noted.participant];
     if (conversation.label.participant.empty()) {
       conversation.label = {options.run, noted.participant, options.selection, options.region};
+      conversation.compression = options.compression;
       if (options.region) conversation.region.emplace(*options.region);
     }
     taken_bytes += size_of(noted.recorded.message);

@@ -13,7 +13,7 @@ namespace polynya::exchange {
 
 /// Writes down what participants and coupler say to each other, in files that are closed and renamed one after the
 /// other: RECORD/ice-00000.h5, RECORD/ice-00001.h5 and so on (layout: docs/debugging.md). So all but the latest is
-/// readable whenever the process is killed. A thread of its own compresses and writes; the run waits only when that
+/// readable whenever the process is killed. A thread of its own writes; the run waits only when that
 /// thread falls behind by more than the queue.
 class Recorder {
  public:
@@ -23,6 +23,7 @@ class Recorder {
     std::vector<std::string> participants;        ///< empty: all
     RecordSelection selection;                    ///< one that does not begin at the start cannot be replayed
     std::optional<std::array<double, 6>> region;  ///< m, see RecordRegion; such a record cannot be replayed
+    Compression compression = Compression::none;
     double segment_seconds = 2;  ///< longest wall time between two files; a hundredth of the run if that is more
     std::size_t segment_bytes = 32 << 20;  ///< most of one file; early ones are smaller
     std::size_t queue_bytes = 128 << 20;
@@ -41,8 +42,8 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Copies a message for the record. One thread at a time. Throws results::ResultsError when an earlier one could not
-  /// be written.
+  /// Keeps a message for the record; it shares the arrays' bytes. One thread at a time. Throws results::ResultsError
+  /// when an earlier one could not be written.
   void note(const std::string& participant, Sender sender, const Message& message);
 
   /// Writes the last files. Throws results::ResultsError.

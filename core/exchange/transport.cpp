@@ -17,6 +17,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr int linger_ms = 2000;
+constexpr std::size_t least_shared = 1024;  ///< bytes; ZeroMQ keeps very short frames in the message itself
 constexpr const char* monitor_address = "inproc://monitor";
 
 bool is_local(const std::string& endpoint) {
@@ -48,23 +49,31 @@ void set_options(zmq::socket_t& socket, Transport::Side side, bool local) {
   socket.set(zmq::sockopt::heartbeat_ttl, 3000);
 }
 
-/// A frame that takes over the bytes of an array: the input/output thread sends them from where they are.
-zmq::message_t frame_of(std::vector<std::byte>&& bytes) {
+/// A frame that shares the bytes of an array: the input/output thread sends them from where they are.
+zmq::message_t frame_of(const Bytes& bytes) {
   if (bytes.empty()) return zmq::message_t();
-  auto* owner = new std::vector<std::byte>(std::move(bytes));
+  auto* owner = new Bytes(bytes);
   return zmq::message_t(
-      owner->data(), owner->size(), [](void*, void* hint) { delete static_cast<std::vector<std::byte>*>(hint); },
+      const_cast<std::byte*>(owner->data()), owner->size(), [](void*, void* hint) { delete static_cast<Bytes*>(hint); },
       owner);
 }
 
-Message decode(const std::vector<zmq::message_t>& frames, Envelope& envelope) {
+/// The bytes of a frame, where they are if numbers can be read there. Short frames lie side by side, as they came.
+Bytes bytes_of(zmq::message_t&& frame) {
+  const std::span<const std::byte> bytes(frame.data<std::byte>(), frame.size());
+  if (bytes.size() < least_shared || reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(double) != 0)
+    return Bytes(bytes);
+  return {bytes, std::make_shared<zmq::message_t>(std::move(frame))};
+}
+
+Message decode(std::vector<zmq::message_t>& frames, Envelope& envelope) {
   if (frames.empty()) throw ProtocolError("a message without frames");
   Message message = decode_header(frames[0].to_string_view(), envelope);
   if (frames.size() != message.arrays.size() + 1)
     throw ProtocolError("message '" + message.kind() + "' announces " + std::to_string(message.arrays.size()) +
                         " arrays and came with " + std::to_string(frames.size() - 1));
   for (std::size_t i = 0; i < message.arrays.size(); ++i)
-    fill(message.arrays[i], {frames[i + 1].data<std::byte>(), frames[i + 1].size()}, message.kind());
+    fill(message.arrays[i], bytes_of(std::move(frames[i + 1])), message.kind());
   return message;
 }
 
@@ -194,7 +203,7 @@ bool Transport::send(const std::string& route, Message&& message, const Envelope
     if (state_->side == Side::coupler) socket.send(zmq::buffer(route), zmq::send_flags::sndmore);
     for (std::size_t i = 0; i <= message.arrays.size(); ++i) {
       zmq::message_t frame =
-          i == 0 ? zmq::message_t(header.data(), header.size()) : frame_of(std::move(message.arrays[i - 1].bytes));
+          i == 0 ? zmq::message_t(header.data(), header.size()) : frame_of(message.arrays[i - 1].bytes);
       socket.send(std::move(frame), i < message.arrays.size() ? zmq::send_flags::sndmore : zmq::send_flags::none);
     }
   } catch (const zmq::error_t& error) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <utility>
 
 #include "core/exchange/errors.hpp"
 
@@ -116,12 +117,12 @@ Message decode_header(std::string_view frame, Envelope& envelope) {
   return message;
 }
 
-void fill(Array& array, std::span<const std::byte> frame, std::string_view kind) {
+void fill(Array& array, Bytes frame, std::string_view kind) {
   if (frame.size() != byte_count(array))
     throw ProtocolError("array '" + array.name + "' of message '" + std::string(kind) + "' came with " +
                         std::to_string(frame.size()) + " bytes, its shape " + shape_text(array) + " needs " +
                         std::to_string(byte_count(array)));
-  array.bytes.assign(frame.begin(), frame.end());
+  array.bytes = std::move(frame);
 }
 
 void expect_kind(const Message& message, std::string_view kind) {

@@ -1,6 +1,5 @@
 #pragma once
 #include <cstddef>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -9,7 +8,7 @@
 namespace polynya::exchange {
 
 /// Version of the wire format and of the conversation in docs/protocol.md.
-inline constexpr int protocol_version = 1;
+inline constexpr int protocol_version = 2;
 
 /// What every header carries besides the message's own fields.
 struct Envelope {
@@ -32,8 +31,8 @@ std::string encode_header(const Message& message, const Envelope& envelope);
 /// are the receiver's matter. Throws ProtocolError.
 Message decode_header(std::string_view frame, Envelope& envelope);
 
-/// Copies a frame into the array that its descriptor announced. Throws ProtocolError when the sizes differ.
-void fill(Array& array, std::span<const std::byte> frame, std::string_view kind);
+/// Gives a frame to the array that its descriptor announced. Throws ProtocolError when the sizes differ.
+void fill(Array& array, Bytes frame, std::string_view kind);
 
 /// Throws ProtocolError unless the message is of this kind.
 void expect_kind(const Message& message, std::string_view kind);

@@ -78,6 +78,7 @@ void read_record(const Values& values, Scene& scene) {
     values.fail("record.interface", "there are no messages to record where one solver runs alone; allowed here: false");
   Record& record = scene.record.emplace();
   record.participants = chosen_participants(values, scene);
+  record.compression = values.text("record.compression");
   record.times = intervals<double>(values, "record.times", [](const std::string& word) -> std::optional<double> {
     const Quantity time = parse_quantity(word);
     return time.bare || time.dimension == dimension::time ? std::optional(time.value) : std::nullopt;

@@ -140,6 +140,7 @@ struct Record {
   /// Intervals: [from, to, from, to, ...], s and numbers; the last one open where its end is missing; empty: all.
   std::vector<double> times;
   std::vector<std::int64_t> windows;
+  std::string compression = "none";  ///< "none" or "deflate"
   /// m; sides of the box that vertices, cells and faces must lie in.
   std::optional<double> x_min, x_max, y_min, y_max, z_min, z_max;
 

@@ -105,6 +105,7 @@ template <class Part, class Visit>
 requires std::is_same_v<std::remove_const_t<Part>, Record>
 void members(Part& p, Visit&& visit) {
   visit("participants", p.participants), visit("times", p.times), visit("windows", p.windows);
+  visit("compression", p.compression);
   visit("x_min", p.x_min), visit("x_max", p.x_max), visit("y_min", p.y_min), visit("y_max", p.y_max);
   visit("z_min", p.z_min), visit("z_max", p.z_max);
 }

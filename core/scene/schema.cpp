@@ -186,6 +186,8 @@ std::vector<KeyRule> record_rules() {
            "intervals on record, e.g. \"0 to 20 us, 0.1 ms to end\"; a replay goes as far as the first one, which must "
            "begin at 0"),
       text("record.windows", "all", "the same by the numbers of windows, e.g. \"0 to 100, 250, 300 to end\""),
+      choice("record.compression", {"none", "deflate"}, "none",
+             "of the files: deflate takes less room and more processor time (docs/debugging.md)"),
   };
   for (const std::string side : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"})
     rules.push_back(number("record.region." + side, dim::length, "auto",

@@ -57,18 +57,26 @@ def overlap(lines: list[numpy.ndarray], box: Box, speed: float) -> dict[str, num
     for axis in range(3):
         low, high = (numpy.delete(faces[axis], end, axis=2 - axis) for end in (-1, 0))
         touched |= (low > 0) | (high > 0)
-    cells = numpy.flatnonzero(touched)  # C order of [k][j][i]: ascending i + nx (j + ny k)
-    count = len(cells)
-    walls, velocities = numpy.zeros((count, 2, 3)), numpy.zeros((count, 2, 3))
-    walls[:, 0] = wall.reshape(-1, 3)[cells]
-    velocities[numpy.any(walls[:, 0] != 0, axis=1), 0, 2] = speed
-    arrays = {"cell": cells.astype("i8"), "solid_volume": volume.ravel()[cells], "debris_volume": numpy.zeros(count),
-              "wall_area": walls, "wall_velocity": velocities}
+    walled = numpy.any(wall != 0, axis=-1)
+    full = ~walled & (volume >= product(*sizes))
+    cells = numpy.flatnonzero(touched & ~full)  # C order of [k][j][i]: ascending i + nx (j + ny k)
+    walls = numpy.flatnonzero(walled)
+    areas_of_walls, velocities = numpy.zeros((len(walls), 2, 3)), numpy.zeros((len(walls), 2, 3))
+    areas_of_walls[:, 0] = wall.reshape(-1, 3)[walls]
+    velocities[:, 0, 2] = speed
+    arrays = {"cell": cells.astype("i8"), "solid_volume": volume.ravel()[cells], "debris_volume": numpy.zeros(len(cells)),
+              "cell.full": runs(full), "wall": walls.astype("i8"), "wall_area": areas_of_walls, "wall_velocity": velocities}
     for axis, name in enumerate(("face_x", "face_y", "face_z")):
         solid = faces[axis].ravel()
-        index = numpy.flatnonzero(solid > 0)
-        arrays[name], arrays[name + ".solid"] = index.astype("i8"), solid[index]
+        index = numpy.flatnonzero((solid > 0) & (solid < 1))
+        arrays[name], arrays[name + ".solid"], arrays[name + ".full"] = index.astype("i8"), solid[index], runs(solid == 1)
     return arrays
+
+
+def runs(mask: numpy.ndarray) -> numpy.ndarray:
+    """[runs][2], first and how many, of the places where the mask holds."""
+    edges = numpy.flatnonzero(numpy.diff(mask.ravel().astype("i1"), prepend=0, append=0))
+    return numpy.stack([edges[::2], edges[1::2] - edges[::2]], axis=1).astype("i8")
 
 
 def product(x: numpy.ndarray, y: numpy.ndarray, z: numpy.ndarray) -> numpy.ndarray:

@@ -21,7 +21,7 @@ class Fluid:
 
     def __init__(self, talk: Conversation, scene: dict, findings: Findings) -> None:
         self.talk, self.scene, self.findings = talk, scene, findings
-        self.span, self.time, self.cells_before = 0, 0.0, 0
+        self.span, self.time, self.walls_before = 0, 0.0, 0
 
     def join(self) -> None:
         """Up to the answer to `begin`, with the box at rest."""
@@ -43,7 +43,7 @@ class Fluid:
 
     def arrays(self, speed: float) -> dict[str, numpy.ndarray]:
         arrays = overlap(self.lines, self.box, speed)
-        self.cells, self.walled = arrays["cell"], numpy.any(arrays["wall_area"] != 0, axis=(1, 2))
+        self.walls = arrays["wall"]
         return arrays
 
     def take_pressure(self, first: bool = False) -> None:
@@ -51,16 +51,16 @@ class Fluid:
         if not first:
             greeting.check_number(message, SECTION, "span", self.span, self.findings)
         self.stable = greeting.stable_step(message, SECTION)
-        expected = {"pressure.values": len(self.cells), "pressure.gradient_z": len(self.cells)}
+        expected = {"pressure.values": len(self.walls), "pressure.gradient_z": len(self.walls)}
         if not first:
-            expected |= {"pressure.previous_values": self.cells_before, "pressure.previous_gradient_z": self.cells_before}
+            expected |= {"pressure.previous_values": self.walls_before, "pressure.previous_gradient_z": self.walls_before}
         if "pressure.impedance" in message.arrays:
-            expected["pressure.impedance"] = len(self.cells)
+            expected["pressure.impedance"] = len(self.walls)
         for name, count in expected.items():
             message.array(SECTION, name, "f8", (count,))
             check_finite(message, SECTION, name, self.findings)
         if "pressure.impulse" in message.arrays:
-            message.array(SECTION, "pressure.impulse", "f8", (len(self.cells), 2, 3))
+            message.array(SECTION, "pressure.impulse", "f8", (len(self.walls), 2, 3))
             check_finite(message, SECTION, "pressure.impulse", self.findings)
         if numpy.any(message.arrays.get("pressure.impedance", numpy.zeros(0)) < 0):
             self.findings.add(SECTION, "impedance", "'pressure': 'pressure.impedance' has a negative value")
@@ -72,10 +72,10 @@ class Fluid:
         """At the wall of a body at rest the gauge pressure is density times gravity times depth."""
         water, gravity = self.scene["fluid"]["water"], self.scene["run"]["gravity"]
         weight = self.scene["materials"][water]["values"]["density"] * gravity
-        depth = depths(self.lines, self.cells, self.scene["fluid"]["waterline"])
+        depth = depths(self.lines, self.walls, self.scene["fluid"]["waterline"])
         for name, found, due, unit in (("values", values, weight * depth, "Pa"),
                                        ("gradient_z", gradient, numpy.full(len(depth), weight), "Pa/m")):
-            error = numpy.where(self.walled, numpy.abs(found - due), 0.0)
+            error = numpy.abs(found - due)
             if len(error) and not error.max() <= AT_REST * max(numpy.abs(due).max(), 1.0):
                 e = int(numpy.argmax(error))
                 self.findings.add(SECTION, f"rest {name}", f"'pressure': around a body at rest 'pressure.{name}' is "
@@ -89,7 +89,7 @@ class Fluid:
         fields = {"span": self.span, "time0": self.time, "time1": self.time + length, "finish": finish, "frame": frame}
         if odd_fields:
             fields["conform_remark"] = {"unknown": ["fields", "are", "ignored"]}
-        self.time, self.box, self.cells_before = self.time + length, self.box.raised(SPEED * length), len(self.cells)
+        self.time, self.box, self.walls_before = self.time + length, self.box.raised(SPEED * length), len(self.walls)
         arrays = self.arrays(SPEED)
         self.talk.send("span", fields, greeting.strange(arrays) if odd_arrays else arrays,
                        remark=f"of span {self.span}{remark}")

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy
 
-PROTOCOL = 1
+PROTOCOL = 2
 TYPES = ("f8", "i8", "i4", "u1")
 ENVELOPE = {"protocol": int, "run": str, "kind": str, "part": int, "parts": int, "arrays": list}
 WORDS = {int: "integer", str: "string", list: "list"}

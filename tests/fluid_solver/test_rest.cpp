@@ -57,7 +57,7 @@ TEST(Rest, CutBodyAcrossTheWaterlineStaysAtRest) {
   EXPECT_NEAR(fluid.account.energy_sum(), energy, 1e-12 * energy);
   // Buoyancy: water to the lower face's depth. Forces of gauge pressure on the bottom minus the top (in air).
   std::vector<double> value, gradient;
-  overlap_pressure(fluid, overlap, value, gradient);
+  overlap_pressure(fluid, overlap.cell, value, gradient);
   double lift = 0;
   for (std::size_t m = 0; m < overlap.cell.size(); ++m) {
     int i, j, k;
@@ -80,7 +80,7 @@ TEST(Rest, CellsThatShareAStateAboveEachOtherHaveThePressureOfTheirOwnDepth) {
   for (const int steps : {0, 300}) {
     for (int n = 0; n < steps; ++n) step(fluid, dt, overlap);
     std::vector<double> value, gradient;
-    overlap_pressure(fluid, overlap, value, gradient);
+    overlap_pressure(fluid, overlap.cell, value, gradient);
     for (std::size_t m = 0; m < overlap.cell.size(); ++m) {
       if (overlap.wall_area[6 * m + 2] == 0) continue;
       int i, j, k;

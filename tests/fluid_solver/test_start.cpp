@@ -69,7 +69,7 @@ double band_error(int cells_per_diameter) {
   move_on(cells_per_diameter, steps, [&](const Fluid& fluid, int n, const Overlap& overlap) {
     if (n <= steps / 2) return;
     std::vector<double> value, gradient;
-    overlap_pressure(fluid, overlap, value, gradient);
+    overlap_pressure(fluid, overlap.cell, value, gradient);
     for (std::size_t m = 0; m < value.size(); ++m) {
       const double* a = overlap.wall_area.data() + 6 * m;
       const double size = std::hypot(a[0], a[1], a[2]);
@@ -93,7 +93,7 @@ TEST(PotentialFlow, FirstStepsStayBelowStagnationPressure) {
   double worst = 0;
   move_on(8, 10, [&](const Fluid& fluid, int, const Overlap& overlap) {
     std::vector<double> value, gradient;
-    overlap_pressure(fluid, overlap, value, gradient);
+    overlap_pressure(fluid, overlap.cell, value, gradient);
     for (const double p : value) worst = std::max(worst, p);
   });
   // An impulsive start would give 59 MPa, 74 times the stagnation pressure.

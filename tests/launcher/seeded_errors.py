@@ -42,7 +42,7 @@ class Coupler:
         """arrays: (name, type, shape, flat values)"""
         described = [{"name": n, "type": t, "shape": list(s)} for n, t, s, _ in arrays]
         frames = [struct.pack(f"<{len(v)}{ {'f8': 'd', 'i8': 'q', 'i4': 'i'}[t] }", *v) for _, t, _, v in arrays]
-        header = {"protocol": 2 if seeded("protocol") else 1, "run": self.run, "kind": kind, "part": 1, "parts": 1,
+        header = {"protocol": 1 if seeded("protocol") else 2, "run": self.run, "kind": kind, "part": 1, "parts": 1,
                   "arrays": described, **fields}
         if seeded("no_parts"):
             del header["parts"]
@@ -156,7 +156,7 @@ def play_fluid(coupler, scene):
                  role="solid" if seeded("role") else "fluid", stable_step=STEP, account=["kinetic"])
 
     def pressures(overlap, prefix):
-        (count,), frame = overlap["cell"]
+        (count,), frame = overlap["wall"]
         depth = [-(lines["z"][0] + 0.01 * (cell // 144 + 0.5)) for cell in struct.unpack(f"<{count}q", frame)]
         absolute = 101325 if seeded("absolute_pressure") else 0
         values = [absolute + weight * d for d in depth]

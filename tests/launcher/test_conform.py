@@ -18,7 +18,7 @@ WHOLE = ("whole",)
 SOLID_ERRORS = {
     "name": (WHOLE, "3", "'hello' gives the name 'structures', the command line gave 'structure'"),
     "another_run": (WHOLE, "2", "'hello': the header says run 'not-this-run', the command line '"),
-    "protocol": (WHOLE, "2", "'hello': the header says protocol 2, this is protocol 1"),
+    "protocol": (WHOLE, "2", "'hello': the header says protocol 1, this is protocol 2"),
     "no_parts": (WHOLE, "2", "'hello': the header lacks the field 'parts' of type integer"),
     "delimiter": (WHOLE, "2", "a message begins with an empty frame"),
     "ready_first": (WHOLE, "3", "sent 'ready' where 'hello' was due, after its start"),

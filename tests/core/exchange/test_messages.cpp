@@ -141,7 +141,7 @@ TEST(Header, EveryDefectIsNamed) {
 
 TEST(Header, FrameOfAnotherSizeThanAnnouncedIsRejected) {
   Array array{"positions", "f8", {2, 3}, {}};
-  const std::vector<std::byte> frame(47);
+  const Bytes frame(std::vector<std::byte>(47));
   EXPECT_NE(message_of<ProtocolError>([&] { fill(array, frame, "surface"); }).find("47 bytes"), std::string::npos);
 }
 

@@ -45,6 +45,9 @@ TEST(RecordRegion, KeepsVerticesTrianglesAndLoadsInsideTheBox) {
 Message overlap(const Integers& cells) {
   Message message("span");
   message.add<std::int64_t>("cell", {static_cast<std::int64_t>(cells.size())}, cells);
+  message.add<std::int64_t>("wall", {static_cast<std::int64_t>(cells.size())}, cells);
+  message.add<std::int64_t>("cell.full", {1, 2}, Integers{3, 4});
+  message.add<std::int64_t>("face_z.full", {1, 2}, Integers{1, 6});
   message.add<std::int64_t>("face_x", {3}, Integers{0, 1, 5});
   message.add<double>("face_x.solid", {3}, Numbers{0.1, 0.2, 0.3});
   message.add<std::int64_t>("face_z", {2}, Integers{0, 8});
@@ -64,6 +67,10 @@ TEST(RecordRegion, KeepsCellsFacesAndTheirPressuresInsideTheBox) {
   EXPECT_EQ(values<std::int64_t>(span, "face_x"), (Integers{0, 1}));
   EXPECT_EQ(values<double>(span, "face_x.solid"), (Numbers{0.1, 0.2}));
   EXPECT_EQ(values<double>(span, "face_z.solid"), (Numbers{0.4}));
+  // Of cells 3 to 6 none lies at x = 0.5 m and z = 0.5 m; of z-faces 1 to 6 every other one at x = 0.5 m, none above 1
+  // m.
+  EXPECT_TRUE(values<std::int64_t>(span, "cell.full").empty());
+  EXPECT_EQ(values<std::int64_t>(span, "face_z.full"), (Integers{2, 1, 4, 1, 6, 1}));
 
   region.restrict(overlap({1, 2}));
   Message pressure("pressure");

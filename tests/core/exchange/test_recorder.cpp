@@ -75,10 +75,12 @@ std::vector<Message> odd_messages() {
   return {all, fewer, changed, Message("empty"), all};
 }
 
-TEST(Recorder, MessagesComeBackBitForBitInOrder) {
+void expect_messages_come_back(Compression compression) {
   const SocketFolder folder;
   const std::vector<Message> written = odd_messages();
-  Recorder recorder(options_in(folder));
+  Recorder::Options options = options_in(folder);
+  options.compression = compression;
+  Recorder recorder(options);
   for (std::size_t i = 0; i < written.size(); ++i)
     recorder.note("ice", i % 2 == 0 ? Sender::participant : Sender::coupler, written[i]);
   EXPECT_EQ(recorder.close().messages, written.size());
@@ -90,9 +92,19 @@ TEST(Recorder, MessagesComeBackBitForBitInOrder) {
   }
 }
 
-TEST(Recorder, LargeArraysComeBackFromManyFiles) {
+TEST(Recorder, MessagesComeBackBitForBitInOrder) {
+  expect_messages_come_back(Compression::none);
+}
+
+TEST(Recorder, CompressedMessagesComeBackBitForBitInOrder) {
+  expect_messages_come_back(Compression::deflate);
+}
+
+/// Adds up the bytes of the files.
+void expect_large_arrays_come_back(Compression compression, std::uintmax_t& bytes) {
   const SocketFolder folder;
   Recorder::Options options = options_in(folder);
+  options.compression = compression;
   options.segment_bytes = 3 << 20;
   std::vector<Message> written;
   for (int window = 0; window < 6; ++window) {
@@ -108,8 +120,24 @@ TEST(Recorder, LargeArraysComeBackFromManyFiles) {
   ASSERT_EQ(read.size(), written.size());
   for (std::size_t i = 0; i < read.size(); ++i) expect_equal(read[i].message, written[i]);
   std::size_t files = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(options.folder)) ++files;
+  for (const auto& entry : std::filesystem::directory_iterator(options.folder)) {
+    ++files;
+    bytes += entry.file_size();
+  }
   EXPECT_EQ(files, 3u);
+}
+
+TEST(Recorder, LargeArraysComeBackFromManyFiles) {
+  std::uintmax_t bytes = 0;
+  expect_large_arrays_come_back(Compression::none, bytes);
+  EXPECT_GT(bytes, 6u * (60000 * 24 + 200000 * 8));
+}
+
+TEST(Recorder, CompressionStoresOrderedNumbersInLessThanATenthOfTheirRoom) {
+  std::uintmax_t plain = 0, compressed = 0;
+  expect_large_arrays_come_back(Compression::none, plain);
+  expect_large_arrays_come_back(Compression::deflate, compressed);
+  EXPECT_LT(compressed, plain - 9 * 6 * 200000 * 8 / 10);  // the identifiers; positions are noise
 }
 
 TEST(Recorder, LoadsCarryTheTimeOfTheSurfaceTheyAnswer) {

@@ -44,11 +44,11 @@ TEST(Refusal, AnotherProtocolVersionIsRefused) {
   Transport stranger(Transport::Side::participant, folder.endpoint());
   Message hello("hello");
   hello.header["name"] = "ice";
-  stranger.send({}, std::move(hello), {2, "r"});
+  stranger.send({}, std::move(hello), {1, "r"});
   const auto answer = stranger.next(std::chrono::seconds(5));
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->message.kind(), "refuse");
-  EXPECT_EQ(answer->message.header["reason"], "this coupler speaks protocol 1, not 2");
+  EXPECT_EQ(answer->message.header["reason"], "this coupler speaks protocol 2, not 1");
 }
 
 TEST(Refusal, SecondOfTheSameNameIsRefusedWhileTheFirstGoesOn) {
@@ -69,7 +69,7 @@ TEST(Refusal, SecondOfTheSameNameIsRefusedWhileTheFirstGoesOn) {
 TEST(Refusal, NoiseOfAStrangerDoesNotDisturbTheRun) {
   RunningPair pair;
   Transport stranger(Transport::Side::participant, pair.folder.endpoint());
-  stranger.send({}, Message("surface"), {1, "r"});
+  stranger.send({}, Message("surface"), {protocol_version, "r"});
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   for (int window = 0; window < 3; ++window) {
     pair.hub.send("ice", Message("loads"));

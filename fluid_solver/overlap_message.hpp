@@ -1,0 +1,13 @@
+#pragma once
+#include "core/exchange/message.hpp"
+#include "fluid_solver/grid.hpp"
+#include "fluid_solver/overlap.hpp"
+
+namespace polynya::fluid {
+
+/// The overlap arrays of a `begin` or `span` message (docs/protocol.md, section 5), runs written out. Throws
+/// ProtocolError when one is missing, sizes disagree or cells are not in ascending order; std::out_of_range for a run
+/// that leaves the grid.
+Overlap read_overlap(const exchange::Message& message, const Grid& grid);
+
+}  // namespace polynya::fluid
