@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
+
 namespace polynya::fluid {
 
 /// Where solids cut the grid, at one time, as the coupler sends it. Cells sorted by index (i + nx*(j + ny*k)); cells and
@@ -15,6 +17,8 @@ struct Overlap {
   std::array<std::vector<double>, 3> face_solid;      ///< their solid fraction, 0..1
   std::vector<double> wall_area;      ///< [m][2][3] area vector of each body, pointing into the body, m^2
   std::vector<double> wall_velocity;  ///< [m][2][3] mean velocity of that piece of wall, m/s
+
+  POLYNYA_STATE(cell, solid_volume, debris_volume, face, face_solid, wall_area, wall_velocity)
 };
 
 }  // namespace polynya::fluid
