@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
 #include "core/exchange/message.hpp"
 
 namespace polynya::coupler {
@@ -26,6 +27,8 @@ class Account {
   double change(std::initializer_list<std::string_view> names) const;
   const std::vector<std::string>& names() const { return names_; }
   const std::vector<double>& values() const { return values_; }
+
+  POLYNYA_STATE(names_, values_, initial_)
 
  private:
   std::vector<std::string> names_;

@@ -76,6 +76,7 @@ void send_loads(Conversation& conversation, const WindowEnd& end) {
     loads.header["finish"] = end.finish;
     loads.header["frame"] = end.frame;
     if (end.free) loads.header["free"] = true;
+    if (!end.checkpoint.empty()) loads.header["checkpoint"] = end.checkpoint;
     conversation.hub.send(side.name, std::move(loads));
   }
 }

@@ -16,6 +16,8 @@ struct Conversation {
 
   SolidSide* find(Body body);
   const SolidSide* find(Body body) const;
+
+  POLYNYA_STATE_WITHOUT((hub), hub, solids, fluid)
 };
 
 /// `ready` of every participant: roles, surfaces, grid, accounts.
@@ -34,6 +36,7 @@ struct WindowEnd {
   bool free = false;       ///< nothing acts between the participants before its end
   bool finish = false;
   long frame = -1;  ///< number of the field frame to write now, -1 for none
+  std::string checkpoint;  ///< folder of the checkpoint to write before the next window; empty: none
 };
 
 /// `loads` to every solid.

@@ -8,6 +8,7 @@
 #include "core/compute/threads.hpp"
 #include "core/exchange/errors.hpp"
 #include "core/results/process_report.hpp"
+#include "coupler/checkpointing.hpp"
 #include "coupler/conversation.hpp"
 #include "coupler/end_condition.hpp"
 #include "coupler/pacing.hpp"
@@ -80,6 +81,24 @@ void begin(Run& run, const std::vector<std::string>& names) {
   }
 }
 
+/// Goes on from a checkpoint, as the participants do.
+void go_on(Run& run, const std::vector<std::string>& names) {
+  const auto lap = run.watch.lap("messages");
+  receive_ready(run.conversation, names);
+  if (run.conversation.fluid)
+    run.overlap.emplace(*run.conversation.fluid, run.scene.effect("debris_displacement"),
+                        run.scene.fluid->atmospheric_pressure);
+  run.monitor.emplace(run.scene, run.folder, run.conversation, results::Opening::continued);
+  load_checkpoint(run);
+  begin_balance(run, names);
+  for (const std::string& name : names) {
+    exchange::Message message("begin");
+    message.header["time"] = run.keeper.time;
+    message.header["step"] = run.keeper.length;
+    run.conversation.hub.send(name, std::move(message));
+  }
+}
+
 contact::Body as_contact_body(const SolidSide& side) {
   return {side.positions, side.velocities, side.masses, side.radii, side.ids, side.triangles};
 }
@@ -120,6 +139,7 @@ void send_span(Run& run, long frame) {
   message.header["time1"] = run.keeper.time;
   message.header["finish"] = !run.end.empty();
   message.header["frame"] = frame;
+  if (!run.checkpoint.empty()) message.header["checkpoint"] = run.checkpoint;
   if (const int threads = std::exchange(run.conversation.fluid->new_threads, 0)) message.header["threads"] = threads;
   add_overlap(message, cells, run.conversation.fluid->grid);
   run.conversation.hub.send(run.conversation.fluid->name, std::move(message));
@@ -132,8 +152,13 @@ void prepare_loads(Run& run) {
 }
 
 exchange::Message receive_pressure(Run& run) {
-  const auto lap = run.watch.lap("messages");
-  return run.conversation.hub.receive(run.conversation.fluid->name, "pressure");
+  exchange::Message answer;
+  {
+    const auto lap = run.watch.lap("messages");
+    answer = run.conversation.hub.receive(run.conversation.fluid->name, "pressure");
+  }
+  fluid_has_answered(run);
+  return answer;
 }
 
 /// What the fluid answers to the span that just ended; its loads act in the next one.
@@ -212,6 +237,7 @@ void take_surfaces(Run& run) {
     const auto lap = run.watch.lap("messages");
     receive_surfaces(run.conversation, run.keeper.window);
   }
+  solids_have_answered(run);
   const auto lap = run.watch.lap("ledger");
   run.keeper.time += run.keeper.length;
   for (SolidSide& side : run.conversation.solids) {
@@ -241,6 +267,8 @@ void keep_books(Run& run, double acting_time) {
 void give_loads(Run& run, bool span_ends, long frame) {
   const double next = next_step(run.limits, run.planned_step, run.keeper.step);
   const double length = next_length(run, next, span_ends);
+  // A free window may have been cut to the end of the run, which may come later when the run goes on.
+  if (length > next) run.checkpoint.clear();
   const double acting_time = run.keeper.acting_time(next);
   {
     const auto lap = run.watch.lap("fluid_loads");
@@ -248,7 +276,7 @@ void give_loads(Run& run, bool span_ends, long frame) {
   }
   {
     const auto lap = run.watch.lap("messages");
-    send_loads(run.conversation, {run.keeper.window, length, length > next, !run.end.empty(), frame});
+    send_loads(run.conversation, {run.keeper.window, length, length > next, !run.end.empty(), frame, run.checkpoint});
   }
   keep_books(run, acting_time);
   ++run.keeper.window;
@@ -262,6 +290,7 @@ void advance_window(Run& run) {
   const bool span_ends = --run.keeper.windows_left <= 0;
   const bool fluid_steps = span_ends && run.conversation.fluid;
   const long frame = span_ends ? end_or_frame(run) : -1;
+  if (span_ends) choose_checkpoint(run);
   if (fluid_steps) send_span(run, frame);
   find_contact(run);
   if (fluid_steps) {
@@ -279,6 +308,7 @@ void advance_window(Run& run) {
     refresh_limits(run);
   }
   give_loads(run, span_ends, frame);
+  write_checkpoint(run);
 }
 
 std::vector<std::pair<std::string, nlohmann::json>> part(Run& run) {
@@ -313,14 +343,18 @@ std::vector<std::string> expected_participants(const scene::Scene& scene) {
 }  // namespace
 
 void run_coupled(const scene::Scene& scene, const std::string& run_folder, const std::string& endpoint,
-                 const std::string& run_id, double connect_timeout) {
+                 const std::string& run_id, double connect_timeout, const results::Checkpoints& checkpoints) {
   const std::vector<std::string> names = expected_participants(scene);
   exchange::Hub hub(endpoint, run_id, names);
   const auto recorder = start_recorder(scene, run_folder, run_id, hub);
   try {
     hub.await_participants(connect_timeout);
-    Run run(scene, run_folder, hub);
-    begin(run, names);
+    Run run(scene, run_folder, hub, checkpoints);
+    if (checkpoints.resuming())
+      go_on(run, names);
+    else
+      begin(run, names);
+    begin_checkpoints(run);
     while (run.end.empty()) advance_window(run);
     const auto last_words = part(run);
     if (recorder) finish_recorder(*recorder);

@@ -12,6 +12,8 @@ FluidSide read_fluid_ready(const std::string& name, const exchange::Message& rea
   FluidSide side;
   side.name = name;
   side.stable_step = ready.header.at("stable_step").get<double>();
+  side.can_checkpoint = ready.header.value("can_checkpoint", false);
+  side.ready_time = ready.header.value("time", 0.0);
   side.account.set_names(ready);
   const auto line = [&](const char* array) {
     const auto values = ready.view<double>(array);

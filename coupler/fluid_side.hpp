@@ -29,6 +29,10 @@ struct FluidSide {
   int new_threads = 0;     ///< number of threads to suggest with the next span; 0: nothing new
   Account account;
   geometry::GridLines grid;
+  bool can_checkpoint = false;
+  double ready_time = 0;  ///< s, as a solid's
+
+  POLYNYA_STATE_WITHOUT((grid, ready_time), name, stable_step, new_threads, account, grid, can_checkpoint, ready_time)
 };
 
 FluidSide read_fluid_ready(const std::string& name, const exchange::Message& ready);

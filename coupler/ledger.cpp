@@ -74,7 +74,8 @@ std::vector<results::Column> ledger_columns() {
 
 }  // namespace
 
-LedgerFile::LedgerFile(const std::string& run_folder) : series_(run_folder + "/series/ledger.csv", ledger_columns()) {}
+LedgerFile::LedgerFile(const std::string& run_folder, results::Opening opening)
+    : series_(run_folder + "/series/ledger.csv", ledger_columns(), opening) {}
 
 void LedgerFile::append(double time, long window, double acting_time, const Ledger& ledger,
                         const std::array<Impulse, body_count>& outstanding) {

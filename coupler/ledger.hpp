@@ -46,6 +46,8 @@ class WorkMeter {
   /// Call when the surface of the next window has come: books the work of the remembered loads.
   void settle(const SolidSide& side, Ledger& ledger);
 
+  POLYNYA_STATE(ids_, contact_force_, fluid_force_, velocity_before_, acting_time_)
+
  private:
   std::vector<std::int64_t> ids_;
   std::vector<double> contact_force_, fluid_force_, velocity_before_;
@@ -55,9 +57,11 @@ class WorkMeter {
 /// RUN/series/ledger.csv, one row per window.
 class LedgerFile {
  public:
-  explicit LedgerFile(const std::string& run_folder);
+  explicit LedgerFile(const std::string& run_folder, results::Opening opening = results::Opening::fresh);
   void append(double time, long window, double acting_time, const Ledger& ledger,
               const std::array<Impulse, body_count>& outstanding);
+
+  POLYNYA_STATE(series_)
 
  private:
   results::TimeSeries series_;

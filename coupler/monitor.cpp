@@ -23,8 +23,9 @@ std::vector<results::Column> progress_columns() {
 
 }  // namespace
 
-Monitor::Monitor(const scene::Scene& scene, const std::string& run_folder, const Conversation& conversation)
-    : scene_(scene), series_(run_folder + "/series/coupler.csv", progress_columns()),
+Monitor::Monitor(const scene::Scene& scene, const std::string& run_folder, const Conversation& conversation,
+                 results::Opening opening)
+    : scene_(scene), series_(run_folder + "/series/coupler.csv", progress_columns(), opening),
       scale_(symmetry_scale(scene.symmetry)),
       atmospheric_pressure_(scene.fluid ? scene.fluid->atmospheric_pressure : 0.0) {
   read_vehicle(conversation);

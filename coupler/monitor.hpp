@@ -26,7 +26,8 @@ struct Balance {
 /// of the full vehicle and plate whatever the symmetry).
 class Monitor {
  public:
-  Monitor(const scene::Scene& scene, const std::string& run_folder, const Conversation& conversation);
+  Monitor(const scene::Scene& scene, const std::string& run_folder, const Conversation& conversation,
+          results::Opening opening = results::Opening::fresh);
 
   void note_contact(const contact::ContactForces& forces);
   /// Gauge pressure on the vehicle's wall: the largest of any cell, and the mean over the head by area.
@@ -37,6 +38,11 @@ class Monitor {
 
   void append_row(const TimeKeeper& keeper, const Conversation& conversation, const Ledger& ledger, double window_step);
   nlohmann::json summary(const TimeKeeper& keeper, const Conversation& conversation, const Ledger& ledger) const;
+
+  POLYNYA_STATE_WITHOUT((scene_), scene_, series_, scale_, atmospheric_pressure_, initial_kinetic_, initial_momentum_,
+                        initial_speed_, nose_, speed_, mass_, largest_energy_error_, largest_momentum_error_,
+                        peak_head_stress_, peak_wall_pressure_, wall_pressure_, head_pressure_, deepest_contact_,
+                        contact_before_, fluid_before_, time_before_)
 
  private:
   void read_vehicle(const Conversation& conversation);

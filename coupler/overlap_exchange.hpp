@@ -35,6 +35,10 @@ class OverlapExchange {
   /// volume.
   double verify_sample(std::uint64_t seed, std::size_t count) const;
 
+  /// Between spans, when only the last cut is looked at again.
+  POLYNYA_STATE_WITHOUT((cutter_, debris_displaces_fluid_, atmospheric_pressure_, before_), cutter_,
+                        debris_displaces_fluid_, atmospheric_pressure_, before_, now_)
+
  private:
   using PerBody = std::array<std::vector<double>, body_count>;  ///< by vertex of the body's surface
 
@@ -47,11 +51,15 @@ class OverlapExchange {
       std::vector<double> positions, velocities;
       std::vector<std::int32_t> triangles;
       geometry::BodySurface view() const { return {positions, velocities, triangles}; }
+
+      POLYNYA_STATE(body, ids, positions, velocities, triangles)
     };
     std::vector<Surface> surfaces;
     std::vector<double> piece_size;  ///< [pieces] m^2
     std::vector<double> wall_size;   ///< [entries][bodies] m^2, their sum by cell
     std::vector<geometry::BodySurface> views() const;
+
+    POLYNYA_STATE(cells, surfaces, piece_size, wall_size)
   };
   /// Adds the impulses of one cut's pressures, which acted for `time` (s).
   void book(Conversation& conversation, const Cut& cut, const std::vector<geometry::WallForces>& forces, double time,

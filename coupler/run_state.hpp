@@ -6,6 +6,8 @@
 
 #include "core/compute/timer.hpp"
 #include "core/contact/penalty_contact.hpp"
+#include "core/results/checkpoint_file.hpp"
+#include "core/results/checkpoint_folder.hpp"
 #include "coupler/conversation.hpp"
 #include "coupler/ledger.hpp"
 #include "coupler/monitor.hpp"
@@ -40,11 +42,31 @@ struct Run {
   std::chrono::steady_clock::time_point span_began;  ///< on the wall
   long span_window = 0;                              ///< number of the span's first window
 
-  Run(const scene::Scene& s, std::string run_folder, exchange::Hub& hub)
+  results::Checkpoints checkpoints;
+  results::CheckpointSchedule schedule;
+  std::string checkpoint;  ///< folder of the checkpoint that belongs to the window at work; empty: none
+  /// Written by the coupler, and by the others as far as they have answered since.
+  struct Pending {
+    long window;
+    double time;
+    bool solids_done = false, fluid_done = false;
+  };
+  std::optional<Pending> pending;
+
+  Run(const scene::Scene& s, std::string run_folder, exchange::Hub& hub, results::Checkpoints c)
       : scene(s),
         folder(std::move(run_folder)),
         conversation{hub, {}, std::nullopt},
-        ledger_file(folder) {}
+        ledger_file(folder, c.resuming() ? results::Opening::continued : results::Opening::fresh),
+        checkpoints(std::move(c)),
+        schedule(s.checkpoint.interval, s.checkpoint.wall_interval, 0) {}
+
+  /// Between windows.
+  POLYNYA_STATE_WITHOUT((scene, folder, watch, balance, span_began, checkpoints, schedule, checkpoint, pending), scene,
+                        folder, conversation, watch, keeper, limits, ledger, ledger_file, work, contact,
+                        topology_changed, overlap, monitor, planned_step, first_planned_step, next_frame_time,
+                        logged_lag_limit, slowest_answer, step_warned, frame, cuts, end, balance, span_began,
+                        span_window, checkpoints, schedule, checkpoint, pending)
 
   contact::ContactLaw contact_law(const contact::Body& vehicle, const contact::Body& ice) const {
     contact::ContactLaw law;

@@ -110,6 +110,8 @@ void add_fluid_impulses(SolidSide& side, std::span<const std::int64_t> ids, std:
 void read_ready(SolidSide& side, const exchange::Message& ready) {
   side.stable_step = ready.header.at("stable_step").get<double>();
   side.can_subdivide = ready.header.value("can_subdivide", false);
+  side.can_checkpoint = ready.header.value("can_checkpoint", false);
+  side.ready_time = ready.header.value("time", 0.0);
   side.account.set_names(ready);
   read_topology(side, ready);
   read_motion(side, ready);

@@ -18,6 +18,8 @@ struct SolidSide {
   Body body = Body::vehicle;
   double stable_step = 0;  ///< s
   bool can_subdivide = false;  ///< may take steps of its own within a free window
+  bool can_checkpoint = false;
+  double ready_time = 0;       ///< s, that of `ready`: above 0 where it goes on from a checkpoint
   int new_threads = 0;         ///< number of threads to suggest with the next loads; 0: nothing new
   Account account;
 
@@ -43,6 +45,11 @@ struct SolidSide {
   void restart_mean();
 
   std::size_t vertices() const { return ids.size(); }
+
+  POLYNYA_STATE_WITHOUT((ready_time), name, body, stable_step, can_subdivide, can_checkpoint, ready_time, new_threads,
+                        account, ids, masses, radii, volumes, triangles, positions, velocities, topology_changed,
+                        contact_force, fluid_force, fluid_impulse, start_force, impedance, seen_velocity, velocity_sum,
+                        sum_time)
 };
 
 void read_ready(SolidSide& side, const exchange::Message& ready);

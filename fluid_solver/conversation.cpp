@@ -14,6 +14,8 @@ std::int64_t rows(std::size_t count) { return static_cast<std::int64_t>(count); 
 exchange::Message make_ready(const Fluid& fluid) {
   exchange::Message ready("ready");
   ready.header["role"] = "fluid";
+  ready.header["can_checkpoint"] = true;
+  ready.header["time"] = fluid.time;
   ready.header["stable_step"] = stable_step(fluid);
   ready.header["account"] = account_names();
   const auto values = account_values(fluid.account);
@@ -75,24 +77,49 @@ double positive_span(const exchange::Message& message, double time) {
   return span;
 }
 
-}  // namespace
+/// What goes on from span to span.
+struct Course {
+  Fluid& fluid;
+  Overlap& overlap;  ///< the one sent last
+  Output& output;
 
-void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant& coupler, Output& output) {
+  POLYNYA_STATE(fluid, overlap, output)  // the output last: it shortens files
+};
+
+/// From `ready` to the pressure at time 0.
+void begin(const scene::Scene& scene, Course& course, exchange::Participant& coupler) {
+  Fluid& fluid = course.fluid;
   fill_hydrostatic(fluid, {}, scene.fluid->waterline);
-  Overlap overlap;
   {
     const auto lap = fluid.watch.lap("messages");
     coupler.send(make_ready(fluid));
-    overlap = read_overlap(coupler.receive("begin"), fluid.grid);
+    course.overlap = read_overlap(coupler.receive("begin"), fluid.grid);
   }
   {
     const auto lap = fluid.watch.lap("start");
-    start(scene, fluid, overlap);
+    start(scene, fluid, course.overlap);
   }
-  {
-    const auto lap = fluid.watch.lap("messages");
-    coupler.send(make_pressure(fluid, overlap));
-  }
+  const auto lap = fluid.watch.lap("messages");
+  coupler.send(make_pressure(fluid, course.overlap));
+}
+
+void go_on(Course& course, exchange::Participant& coupler, const results::Checkpoints& checkpoints) {
+  if (const std::string remark = checkpoints.load(course); !remark.empty()) spdlog::warn("{}", remark);
+  spdlog::info("goes on at t = {:.6e} s, step {}", course.fluid.time, course.fluid.steps);
+  coupler.send(make_ready(course.fluid));
+  coupler.receive("begin");
+}
+
+}  // namespace
+
+void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant& coupler, Output& output,
+                 const results::Checkpoints& checkpoints) {
+  Overlap overlap;
+  Course course{fluid, overlap, output};
+  if (checkpoints.resuming())
+    go_on(course, coupler, checkpoints);
+  else
+    begin(scene, course, coupler);
   for (;;) {
     exchange::Message span;
     Overlap next;
@@ -122,6 +149,10 @@ void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant&
     output.record(fluid, dt);
     if (const int frame = span.header.value("frame", -1); frame >= 0) output.write_frame(fluid, frame);
     if (span.header.value("finish", false)) break;
+    if (const auto folder = span.header.value("checkpoint", std::string{}); !folder.empty() && checkpoints.active()) {
+      const auto lap = fluid.watch.lap("checkpoints");
+      checkpoints.save(folder, fluid.steps, fluid.time, course);
+    }
   }
   exchange::Message finished("finished");
   finished.header.update(output.summary(fluid));

@@ -2,6 +2,7 @@
 #include <array>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
 #include "fluid_solver/grid.hpp"
 #include "fluid_solver/overlap.hpp"
 
@@ -34,6 +35,8 @@ struct CutGeometry {
   /// Takes the open faces and the walls of `later` and keeps the volumes: the limit from the right at an instant when
   /// walls that lie in planes of faces begin to leave them.
   void open_like(const CutGeometry& later);
+
+  POLYNYA_STATE_WITHOUT((listed_), volume, open, node_fraction, walls, clamped_debris, cells_, nodes_, listed_, faces_)
 
  private:
   struct Touched {

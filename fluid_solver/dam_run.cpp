@@ -8,22 +8,30 @@
 
 namespace polynya::fluid {
 
-void run_dam(const scene::Scene& scene, Fluid& fluid, Output& output) {
+namespace {
+
+struct Series {
+  results::TimeSeries file;
+  double next = 0;  ///< s, when the next row is due
+
+  POLYNYA_STATE(file, next)
+};
+
+}  // namespace
+
+void run_dam(const scene::Scene& scene, Fluid& fluid, Output& output, const results::Checkpoints& checkpoints) {
   constexpr double rows = 1000;
   const double length = scene.fluid->dam->length, unit = std::sqrt(0.5 * length / fluid.setup.gravity);
   const double interval = scene.run.end_time / rows;
-  results::TimeSeries series(output.folder() + "/series/dam.csv", {{"time", "s"},
-                                                                   {"front", "m"},
-                                                                   {"height", "m"},
-                                                                   {"time_scaled", ""},
-                                                                   {"front_scaled", ""},
-                                                                   {"height_scaled", ""}});
-  double next = 0;
-  run_alone(scene, fluid, output, [&] {
-    if (fluid.time < next) return;
-    while (next <= fluid.time) next += interval;
+  const std::vector<results::Column> columns{{"time", "s"},         {"front", "m"},         {"height", "m"},
+                                             {"time_scaled", ""}, {"front_scaled", ""}, {"height_scaled", ""}};
+  Series series{{output.folder() + "/series/dam.csv", columns,
+                 checkpoints.resuming() ? results::Opening::continued : results::Opening::fresh}};
+  run_alone(scene, fluid, output, checkpoints, series, [&] {
+    if (fluid.time < series.next) return;
+    while (series.next <= fluid.time) series.next += interval;
     const double front = front_of(fluid), height = height_at_wall(fluid);
-    series.append(std::vector{fluid.time, front, height, fluid.time / unit, front / length, height / length});
+    series.file.append(std::vector{fluid.time, front, height, fluid.time / unit, front / length, height / length});
   });
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
 #include "core/compute/timer.hpp"
 #include "fluid_solver/account.hpp"
 #include "fluid_solver/cut_geometry.hpp"
@@ -49,6 +50,8 @@ struct Setup {
 /// Extensive state of one material in every cell.
 struct Material {
   std::vector<double> mass, energy, volume;  ///< kg, J (internal), m^3
+
+  POLYNYA_STATE(mass, energy, volume)
 };
 
 /// Fluid beyond one non-reflecting side as a whole, where it is not that of the layers.
@@ -63,6 +66,8 @@ struct FarField {
   std::array<double, 3> centre{};                 ///< of the body, m
   bool spherical = false;                         ///< false: plane waves, nothing flows beyond
   std::array<std::vector<double>, 6> slow_speed;  ///< outward, by side and face in the order of its cells, m/s
+
+  POLYNYA_STATE(centre, spherical, slow_speed)
 };
 
 /// A started flow is not quite the one the scheme would settle to, and the difference rings between walls and cells.
@@ -127,6 +132,8 @@ struct Fluid {
   /// What leaves the cells that solids cut, and in ghosts what flows in.
   struct Donor {
     std::vector<double> mass, energy, volume;  ///< per Lagrangian volume
+
+    POLYNYA_STATE(mass, energy, volume)
   };
   std::array<Donor, 2> donor;
   std::vector<std::ptrdiff_t> held_cells;     ///< that solids cut, before or after, and members of groups: they
@@ -142,6 +149,16 @@ struct Fluid {
   std::vector<std::int32_t> label;
 
   Fluid(Grid grid, Setup setup);
+
+  /// Between steps. Left out: what the scene makes, and what a step writes before it reads it
+  /// (tests/fluid_solver/test_checkpoint.cpp spoils it).
+  POLYNYA_STATE_WITHOUT((setup, watch, face_rate, next_velocity),
+                        grid, setup, before, after, groups, group_states, own_compression, material, velocity, motion,
+                        ambient, beyond, far_field, start_damping, largest_density, account, sleeping, watch, time, steps, correction_iterations,
+                        pressure, predicted_pressure, wall_impulse, density, bulk_modulus, sound_speed, total_mass,
+                        face_coefficient, face_rate, face_mass, next_velocity, open_quarter, quarter_width, whole_nodes,
+                        node_fraction, node_mass, kinetic_loss, volume_change, viscosity, rate, donor, held_cells, held,
+                        row_held, sweep_volume, outflow, cut_rows, row_materials, label)
 };
 
 /// State of one cell for `fill`: fraction of the free volume, density and specific energy of each material.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/compute/parallel.hpp"
+#include "core/compute/state_archive.hpp"
 
 namespace polynya::fluid {
 
@@ -18,6 +19,8 @@ struct Grid {
   std::ptrdiff_t sy = 0, sz = 0;   ///< strides of j and k
   std::size_t size = 0;            ///< entries of every array
   std::vector<double> cell_volume; ///< by padded index, m^3; 0 for what is no cell of the grid
+
+  POLYNYA_STATE(nx, ny, nz, x, y, z, dx, dy, dz, sy, sz, size, cell_volume)
 
   /// Throws std::invalid_argument if a line has fewer than two nodes or does not increase.
   Grid(std::vector<double> x_lines, std::vector<double> y_lines, std::vector<double> z_lines);

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
 #include "fluid_solver/cut_geometry.hpp"
 
 namespace polynya::fluid {
@@ -19,6 +20,8 @@ struct Groups {
   std::vector<std::size_t> first;  ///< where each group starts; one entry more than there are groups
   long sealed = 0;                 ///< groups that had no open neighbour
   std::size_t count() const { return first.empty() ? 0 : first.size() - 1; }
+
+  POLYNYA_STATE(members, first, sealed)
 };
 
 /// `previous` are the groups of the step before: cells keep their partners while these serve.

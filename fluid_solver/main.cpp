@@ -20,7 +20,7 @@ namespace {
 using namespace polynya;
 
 struct Options {
-  std::string scene, out, endpoint, run, name = "fluid";
+  std::string scene, out, endpoint, run, name = "fluid", resume;
   exchange::Replay replay;
   int threads = 0;
 
@@ -36,6 +36,7 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   auto* connect = app.add_option("--connect", options.endpoint, "the coupler's endpoint");
   app.add_option("--run", options.run, "identity of the run, the coupler's")->needs(connect);
   app.add_option("--name", options.name, "name under which the coupler expects this process");
+  app.add_option("--resume", options.resume, "go on from this checkpoint (RUN/checkpoints/NUMBER)");
   exchange::add_replay_options(app, options.replay);
   app.add_option("--threads", options.threads, "threads to use; 0: as many as OpenMP offers")
       ->check(CLI::NonNegativeNumber);
@@ -49,7 +50,7 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
 }
 
 void start_log(const Options& options) {
-  auto logger = spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", true);
+  auto logger = spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", options.resume.empty());
   logger->flush_on(spdlog::level::info);
   spdlog::set_default_logger(logger);
 }
@@ -79,16 +80,23 @@ void keeping_last_good(fluid::Output& output, Body&& body) {
   }
 }
 
+results::Checkpoints checkpoints_of(const Options& options, const scene::Scene& scene) {
+  if (options.replay.wanted()) return {};
+  return {options.out, options.name, "fluid_solver", scene::to_json(scene).dump(), options.resume};
+}
+
 void run(const Options& options, const scene::Scene& scene, fluid::Fluid& built) {
-  fluid::Output output(options.out, options.name, scene.run.end_time, scene);
+  const results::Checkpoints checkpoints = checkpoints_of(options, scene);
+  fluid::Output output(options.out, options.name, scene.run.end_time, scene,
+                       checkpoints.resuming() ? results::Opening::continued : results::Opening::fresh);
   if (options.alone()) {
     try {
       double error = -1;
       keeping_last_good(output, [&] {
         if (scene.fluid->dam)
-          fluid::run_dam(scene, built, output);
+          fluid::run_dam(scene, built, output, checkpoints);
         else
-          error = fluid::run_tube(scene, built, output);
+          error = fluid::run_tube(scene, built, output, checkpoints);
       });
       if (error >= 0) spdlog::info("mean error of the density: {:.4f} of its mean", error);
       output.write_summary(built, error);
@@ -103,7 +111,7 @@ void run(const Options& options, const scene::Scene& scene, fluid::Fluid& built)
   exchange::Participant coupler({options.endpoint, options.run, options.name, 60, options.replay});
   const auto close = [&] { output.close(built, coupler.waits().intervals()); };
   try {
-    keeping_last_good(output, [&] { fluid::run_coupled(scene, built, coupler, output); });
+    keeping_last_good(output, [&] { fluid::run_coupled(scene, built, coupler, output, checkpoints); });
     close();
   } catch (const exchange::Stopped&) {
     close();
@@ -129,6 +137,7 @@ int main(int argc, char** argv) {
   try {
     scene = scene::load_resolved_scene(options.scene);
     if (options.replay.wanted()) exchange::check_replayable(options.replay.record, options.name);
+    if (!options.resume.empty()) checkpoints_of(options, scene).check();
     start_log(options);
     built.emplace(build(options, scene));
   } catch (const std::exception& error) {
@@ -141,6 +150,10 @@ int main(int argc, char** argv) {
   } catch (const exchange::ReplayEnded& verdict) {
     std::printf("%s\n", verdict.what());
     return 0;
+  } catch (const results::CheckpointError& error) {
+    spdlog::error("{}", error.what());
+    std::fprintf(stderr, "%s: %s\n", options.name.c_str(), error.what());
+    return 2;
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());
     std::fprintf(stderr, "%s: %s\n", options.name.c_str(), error.what());

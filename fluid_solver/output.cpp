@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
@@ -99,13 +100,17 @@ void add_fields(const Fluid& fluid, results::UnstructuredFields& cells) {
 
 }  // namespace
 
-Output::Output(std::string run_folder, std::string name, double duration, const scene::Scene& scene)
+Output::Output(std::string run_folder, std::string name, double duration, const scene::Scene& scene,
+               results::Opening opening)
     : folder_(std::move(run_folder)),
       name_(std::move(name)),
       frames_(folder_, "fluid"),
-      series_(folder_ + "/series/fluid.csv", columns()),
+      series_(folder_ + "/series/fluid.csv", columns(), opening),
       row_interval_(duration / most_rows),
-      vehicle_volume_(vehicle_volume(scene)) {}
+      vehicle_volume_(vehicle_volume(scene)) {
+  // No row before the checkpoint is loaded.
+  if (opening == results::Opening::continued) last_row_ = std::numeric_limits<double>::infinity();
+}
 
 void Output::start(const Fluid& fluid) {
   first_ = fluid.account;

@@ -15,7 +15,8 @@ namespace polynya::fluid {
 class Output {
  public:
   /// The series gets at most about 10,000 rows over `duration` (s).
-  Output(std::string run_folder, std::string name, double duration, const scene::Scene& scene);
+  Output(std::string run_folder, std::string name, double duration, const scene::Scene& scene,
+         results::Opening opening = results::Opening::fresh);
 
   /// Remembers the state that errors of mass and energy are counted from.
   void start(const Fluid& fluid);
@@ -33,6 +34,11 @@ class Output {
   nlohmann::json summary(const Fluid& fluid) const;
   int frames() const { return static_cast<int>(frames_.count()); }
   const std::string& folder() const { return folder_; }
+
+  /// The last good state is kept anew.
+  POLYNYA_STATE_WITHOUT((folder_, name_, report_, vehicle_volume_, cells_, good_time_, frame_time_), folder_, name_,
+                        report_, frames_, series_, row_interval_, next_row_, step_, smallest_step_, last_row_,
+                        vehicle_volume_, first_, cells_, good_time_, frame_time_)
 
  private:
   void write_row(const Fluid& fluid);

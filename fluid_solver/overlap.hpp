@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
+
 namespace polynya::fluid {
 
 /// Where solids cut the grid, at one time, as the coupler sends it. Cells sorted by index (i + nx*(j + ny*k)); cells and
@@ -16,6 +18,8 @@ struct Overlap {
   std::vector<std::int64_t> walled;   ///< the cells that hold wall, ascending
   std::vector<double> wall_area;      ///< [m][2][3] area vector of each body, pointing into the body, m^2
   std::vector<double> wall_velocity;  ///< [m][2][3] mean velocity of that piece of wall, m/s
+
+  POLYNYA_STATE(cell, solid_volume, debris_volume, face, face_solid, walled, wall_area, wall_velocity)
 };
 
 }  // namespace polynya::fluid

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
+
 namespace polynya::fluid {
 
 struct Fluid;
@@ -46,14 +48,13 @@ struct Sleeping {
   static constexpr int quiet_looks_to_sleep = 2;  ///< in a row
   static constexpr double steps_looked_ahead = 1000;
 
-  // What a stored state has to hold; all that follows is made from it by `arrange_awake`.
   std::array<int, 3> bricks{};                 ///< along x, y, z
   std::vector<unsigned char> awake;            ///< by brick, x first
   std::vector<unsigned char> quiet_looks;      ///< by brick: how often in a row it was found quiet
   std::vector<double> disturbance;             ///< by brick, at the last look; below 0: not known
   double cells_stepped = 0, cells_in_all = 0;  ///< sums over steps
 
-  // By row, j + (ny + 3) k.
+  // Made by `arrange_awake`. By row, j + (ny + 3) k.
   std::vector<Span> cells;    ///< awake
   std::vector<Span> near;     ///< cells up to two beyond those, in every direction, and what lies between
   std::vector<Span> nodes;    ///< whose cells are all awake: these move
@@ -69,6 +70,18 @@ struct Sleeping {
 
   /// Of the steps so far: cells that were stepped over cells in all.
   double share_awake() const { return cells_in_all > 0 ? cells_stepped / cells_in_all : 1.0; }
+
+  void list_state(compute::StateArchive& archive) {
+    if (archive.loading()) {  // as many as there were
+      for (std::vector<Block>* blocks : {&cell_blocks, &node_blocks, &touched_blocks}) blocks->clear();
+    }
+    list_members(archive);
+  }
+
+ private:
+  POLYNYA_STATE_MEMBERS_WITHOUT((), bricks, awake, quiet_looks, disturbance, cells_stepped, cells_in_all, cells, near,
+                                nodes, touched, rows_at_rest, layers, planes, sheltered, cell_blocks, node_blocks,
+                                touched_blocks, at_rest, boundary_force, cells_awake, all_awake)
 };
 
 /// Calls body(other) for a brick and those around it (up to 27).

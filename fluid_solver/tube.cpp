@@ -55,8 +55,9 @@ double write_profile(const scene::Tube& tube, const Fluid& fluid, const std::str
 
 }  // namespace
 
-double run_tube(const scene::Scene& scene, Fluid& fluid, Output& output) {
-  run_alone(scene, fluid, output, [] {});
+double run_tube(const scene::Scene& scene, Fluid& fluid, Output& output, const results::Checkpoints& checkpoints) {
+  int nothing = 0;
+  run_alone(scene, fluid, output, checkpoints, nothing, [] {});
   update_cell_states(fluid);
   return write_profile(*scene.fluid->tube, fluid, output.folder() + "/series/tube.csv");
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
 #include "geometry/error.hpp"
 #include "geometry/grid_lines.hpp"
 
@@ -35,6 +36,8 @@ struct WallPiece {
 struct CutFaces {
   std::vector<std::int64_t> face;  ///< sorted; x: i + (nx+1)*(j + ny*k), y: i + nx*(j + (ny+1)*k), z: i + nx*(j + ny*k)
   std::vector<double> solid;       ///< [faces], fraction covered by the union of the bodies, 0..1
+
+  POLYNYA_STATE(face, solid)
 };
 
 /// What solids take from a grid. One entry per cell that contains solid, wall or debris, sorted by cell.
@@ -55,6 +58,9 @@ struct CutCells {
   std::int64_t corrected_faces = 0;    ///< faces whose fraction left [0, 1] (overlap, folded surface) and was clamped
   std::int64_t loose_edges = 0;        ///< open edges of the surfaces away from the walls of the grid: should be 0
   double squeezed_volume = 0;          ///< m^3 of debris that found no room
+
+  POLYNYA_STATE(bodies, cell, solid_volume, debris_volume, body_volume, wall_area, wall_velocity, walled, faces, pieces,
+                overlapping_cells, corrected_faces, loose_edges, squeezed_volume)
 };
 
 /// Cuts a grid by bodies, column by column: a point is solid when more surface leaves the body than enters it on the

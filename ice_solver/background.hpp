@@ -13,6 +13,8 @@ namespace polynya::ice {
 struct Background {
   std::vector<std::int32_t> elements;  ///< ascending
   Points points;
+
+  POLYNYA_STATE(elements, points)
 };
 
 /// Chooses the living elements whose centre may lie within `reach` (m) of a particle (more are chosen, none is missed)

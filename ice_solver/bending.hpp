@@ -14,6 +14,9 @@ struct BendingRig {
   double multiplicity = 1;                 ///< beams per model: 2 for a half, 4 for a quarter
   std::vector<std::int32_t> supports, loads;
   double deflection = 0;                   ///< m, travel of the loading lines
+
+  POLYNYA_STATE_WITHOUT((support_span, load_span, speed, ramp_time, multiplicity, supports, loads), support_span,
+                        load_span, speed, ramp_time, multiplicity, supports, loads, deflection)
 };
 
 /// Finds the node lines nearest to the spans wanted and holds their vertical component. Throws std::invalid_argument

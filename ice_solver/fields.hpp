@@ -12,6 +12,8 @@ class IceFrames {
   explicit IceFrames(const std::string& run_folder);
   void write(int number, const IceBody& ice);
 
+  POLYNYA_STATE(elements_, particles_)
+
  private:
   results::FrameSeries elements_, particles_;
 };

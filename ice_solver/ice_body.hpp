@@ -86,6 +86,11 @@ struct IceBody {
   IceBooks books;
   bool topology_changed = false;  ///< by the last convert_failed_elements
   compute::Stopwatch watch;
+
+  /// Between steps; the rest is made from the options.
+  POLYNYA_STATE_WITHOUT((options, face_neighbours, first_step, sums, watch), options, solid, face_neighbours, first_step,
+                        particles, background, list, sums, own_contact, list_is_stale, steps_since_build, pair_force,
+                        nodal_force, books, topology_changed, watch)
 };
 
 /// A plate at rest. Throws std::invalid_argument on bad grid lines.

@@ -17,6 +17,8 @@ struct IceSurface {
   std::vector<double> radii;             ///< [v], m: 0 for nodes, V^(1/3)/2 for particles
   std::vector<double> volumes;           ///< [v], m^3: 0 for nodes
   std::size_t vertex_count() const { return ids.size(); }
+
+  POLYNYA_STATE(nodes, ids, triangles, elements, masses, radii, volumes)
 };
 
 /// The surface of the elements that live now and the particles there are.

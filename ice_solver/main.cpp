@@ -22,13 +22,13 @@ namespace {
 using namespace polynya;
 
 struct Options {
-  std::string scene, out, endpoint, run, name = "ice";
+  std::string scene, out, endpoint, run, name = "ice", resume;
   exchange::Replay replay;
   int threads = 0;  // 0: what OpenMP finds
 };
 
 void start_log(const Options& options) {
-  auto logger = spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", true);
+  auto logger = spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", options.resume.empty());
   logger->flush_on(spdlog::level::trace);
   spdlog::set_default_logger(logger);
 }
@@ -76,7 +76,7 @@ int work(const Options& options, ice::IceRun& run) {
     spdlog::error("{}", error.what());
     std::fprintf(stderr, "ice_solver: %s\n", error.what());
     if (participant) participant->fail(error.what());
-    code = 1;
+    code = dynamic_cast<const results::CheckpointError*>(&error) ? 2 : 1;
   }
   write_report(options, run, participant ? &*participant : nullptr);
   return code;
@@ -94,6 +94,7 @@ int main(int argc, char** argv) {
   auto* run_id = app.add_option("--run", options.run, "identity of the run, as given to the coupler");
   connect->needs(run_id);
   app.add_option("--name", options.name, "name of this participant");
+  app.add_option("--resume", options.resume, "go on from this checkpoint (RUN/checkpoints/NUMBER)");
   exchange::add_replay_options(app, options.replay);
   app.add_option("--threads", options.threads, "threads; 0: as many as OpenMP finds")->check(CLI::NonNegativeNumber);
   try {
@@ -107,6 +108,9 @@ int main(int argc, char** argv) {
     run.scene = scene::load_resolved_scene(options.scene);
     if (options.replay.wanted()) exchange::check_replayable(options.replay.record, options.name);
     run.folder = options.out;
+    if (!options.replay.wanted())
+      run.checkpoints = {options.out, options.name, "ice_solver", scene::to_json(run.scene).dump(), options.resume};
+    if (!options.resume.empty()) run.checkpoints.check();
     start_log(options);
     run.ice = ice::make_ice(ice::options_from_scene(run.scene));
     log_law(run.ice.solid.law, run.scene.ice->material);

@@ -51,6 +51,10 @@ class NeighbourList {
   std::size_t entries() const;
   std::size_t builds() const { return builds_; }
 
+  /// The list itself is kept: built anew it would hold other neighbours in another order.
+  POLYNYA_STATE_WITHOUT((x_, y_, z_, h_, origin_, keys_), points_, x_, y_, z_, h_, origin_, bonds_only_, keys_, stride_y_,
+                        stride_z_, rows_, buffers_, built_particles_, built_elements_, skin_, builds_)
+
  private:
   struct Range {  // of points in sorted order
     std::size_t low, high;

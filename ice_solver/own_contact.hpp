@@ -22,6 +22,9 @@ struct OwnContact {
   std::vector<std::int64_t> ids;
   std::vector<double> masses, radii, positions, velocities;
   std::vector<double> point_origins, point_reaches, triangle_origins, triangle_reaches;
+
+  POLYNYA_STATE(active, stale, contact, stored, dissipated, nodes, triangles, ids, masses, radii, positions, velocities,
+                point_origins, point_reaches, triangle_origins, triangle_reaches)
 };
 
 /// Adds the forces of the present configuration, reached in a step of dt (s), to the ice's pair forces and to the

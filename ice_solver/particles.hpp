@@ -22,6 +22,9 @@ struct Particles {
   std::size_t settled = 0;                ///< particles from here on were born in this step
 
   std::size_t count() const { return points.count(); }
+
+  POLYNYA_STATE(points, element, relative_volume, damage, plastic_strain, bulking_pressure, stress_work,
+                velocity_gradient, approach_speed, acceleration, settled)
 };
 
 /// What a particle starts with: the state of its element.

@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
+
 namespace polynya::ice {
 
 /// What the particle sums read and write of a set of points: particles, or intact elements seen as points.
@@ -19,6 +21,8 @@ struct Points {
 
   std::size_t count() const { return mass.size(); }
   void resize(std::size_t count);
+
+  POLYNYA_STATE(position, velocity, stress, mass, density, smoothing_length, origin, bond_reach, force, viscous_force)
 };
 
 inline void Points::resize(std::size_t count) {

@@ -3,6 +3,8 @@
 #include <string>
 
 #include "core/exchange/participant.hpp"
+#include "core/results/checkpoint_file.hpp"
+#include "core/results/time_series.hpp"
 #include "core/scene/scene.hpp"
 #include "ice_solver/ice_body.hpp"
 
@@ -15,6 +17,13 @@ struct IceRun {
   IceBody ice;
   long steps = 0;
   double smallest_step = 1e300;  ///< s
+  results::Checkpoints checkpoints;
+
+  results::Opening opening() const {
+    return checkpoints.resuming() ? results::Opening::continued : results::Opening::fresh;
+  }
+
+  POLYNYA_STATE_WITHOUT((scene, folder, checkpoints), scene, folder, ice, steps, smallest_step, checkpoints)
 };
 
 /// The role of a solid in the coupled conversation (docs/protocol.md), until the coupler says `bye`.

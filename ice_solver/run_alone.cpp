@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/results/checkpoint_folder.hpp"
 #include "core/results/time_series.hpp"
 #include "ice_solver/account.hpp"
 #include "ice_solver/bending.hpp"
@@ -61,22 +62,53 @@ nlohmann::json findings(const IceRun& run, const std::optional<BendingRig>& rig,
   return found;
 }
 
+/// What goes on from step to step.
+struct Course {
+  IceRun& run;
+  std::optional<BendingRig> rig;
+  double dt = 0;             ///< s
+  int frame = 0, row = 0;    ///< the next ones
+  double peak_load = 0;      ///< N
+  IceFrames frames;
+  results::TimeSeries series;
+
+  POLYNYA_STATE(run, rig, dt, frame, row, peak_load, frames, series)
+};
+
+void save(Course& course) {
+  const IceRun& run = course.run;
+  const auto lap = course.run.ice.watch.lap("checkpoints");
+  run.checkpoints.save(results::checkpoint_folder(run.steps), run.steps, run.ice.solid.time, course);
+  results::commit_checkpoint(run.folder, run.steps, run.ice.solid.time, {run.checkpoints.file()});
+}
+
+void begin(Course& course) {
+  IceRun& run = course.run;
+  if (run.checkpoints.resuming()) {
+    const results::Checkpoints checkpoints = run.checkpoints;
+    if (const std::string remark = checkpoints.load(course); !remark.empty()) spdlog::warn("{}", remark);
+    spdlog::info("goes on at t = {:.6e} s, step {}", run.ice.solid.time, run.steps);
+    return;
+  }
+  course.dt = run.scene.run.step_factor * stable_step(run.ice);
+  internal_forces(run.ice, 0);
+  advance_velocities(run.ice, {}, {}, 0, course.dt);
+}
+
 }  // namespace
 
 nlohmann::json run_alone(IceRun& run) {
   IceBody& ice = run.ice;
   const auto& settings = run.scene.run;
   const double factor = (ice.options.planes.x ? 2.0 : 1.0) * (ice.options.planes.y ? 2.0 : 1.0);
-  std::optional<BendingRig> rig = rig_of(run);
-  results::TimeSeries series(run.folder + "/series/ice.csv", columns());
-  IceFrames frames(run.folder);
+  Course course{.run = run,
+                .rig = rig_of(run),
+                .frames = IceFrames(run.folder),
+                .series = results::TimeSeries(run.folder + "/series/ice.csv", columns(), run.opening())};
+  auto& [same_run, rig, dt, frame, row, peak_load, frames, series] = course;
   const double interval = settings.frame_interval > 0 ? settings.frame_interval : settings.end_time;
-  int frame = 0, row = 0;
-  double peak_load = 0;
-
-  double dt = settings.step_factor * stable_step(ice);
-  internal_forces(ice, 0);
-  advance_velocities(ice, {}, {}, 0, dt);
+  begin(course);
+  results::CheckpointSchedule schedule(run.scene.checkpoint.interval, run.scene.checkpoint.wall_interval, ice.solid.time);
   while (true) {
     const bool last = ice.solid.time >= settings.end_time;
     if (rig) peak_load = std::max(peak_load, roller_load(*rig, ice));
@@ -99,6 +131,9 @@ nlohmann::json run_alone(IceRun& run) {
     run.smallest_step = std::min(run.smallest_step, dt);
     ++run.steps;
     dt = next;
+    if (!run.checkpoints.active() || ice.solid.time >= settings.end_time || !schedule.due(ice.solid.time)) continue;
+    schedule.taken(ice.solid.time);
+    save(course);
   }
   return findings(run, rig, peak_load);
 }

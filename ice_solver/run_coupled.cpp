@@ -41,6 +41,8 @@ Message ready_message(IceBody& ice, const IceSurface& surface) {
   ready.header["role"] = "solid";
   ready.header["body"] = "ice";
   ready.header["can_subdivide"] = true;
+  ready.header["can_checkpoint"] = true;
+  ready.header["time"] = ice.solid.time;
   ready.header["account"] = account_names();
   add_topology(ready, surface);
   add_motion_and_account(ready, ice, surface);
@@ -92,10 +94,22 @@ double advance_freely(IceRun& run, IceSurface& surface, double step, double left
   return step;
 }
 
+/// What goes on from window to window.
+struct Course {
+  IceRun& run;
+  IceSurface surface;
+  double dt = 0;    ///< s
+  long window = 0;  ///< the next one
+  IceFrames frames;
+
+  POLYNYA_STATE(run, surface, dt, window, frames)
+};
+
 /// What remains of a window after its positions are known, and of the next one, if it is free, all but the last step;
-/// returns the length of the step that comes now, 0 to finish.
-double finish_window(IceRun& run, exchange::Participant& participant, IceSurface& surface, IceFrames& frames,
-                     double dt) {
+/// returns the length of the step that comes now, 0 to finish, and the
+/// folder of the checkpoint that is wanted before it.
+double finish_window(Course& course, exchange::Participant& participant, std::string& checkpoint) {
+  auto& [run, surface, dt, window, frames] = course;
   internal_forces(run.ice, dt);
   Message loads;
   std::vector<double> node_loads, particle_loads;
@@ -117,36 +131,58 @@ double finish_window(IceRun& run, exchange::Participant& participant, IceSurface
   }
   convert(run, surface);
   if (loads.header.at("finish").get<bool>()) return 0;
+  checkpoint = loads.header.value("checkpoint", std::string{});
   return free ? advance_freely(run, surface, next, length - next) : next;
+}
+
+/// From `ready` to the first half step.
+void begin(Course& course, exchange::Participant& participant) {
+  IceBody& ice = course.run.ice;
+  course.surface = surface_of(ice);
+  std::vector<double> node_loads, particle_loads;
+  {
+    const auto lap = ice.watch.lap("messages");
+    participant.send(ready_message(ice, course.surface));
+    const Message begin = participant.receive("begin");
+    course.dt = begin.header.at("step").get<double>();
+    distribute_loads(ice, course.surface, begin.view<std::int64_t>("load.vertices"), begin.view<double>("load.forces"),
+                     node_loads, particle_loads);
+  }
+  internal_forces(ice, 0);
+  advance_velocities(ice, node_loads, particle_loads, 0, course.dt);
+  spdlog::info("begins with a step of {:.3e} s", course.dt);
+}
+
+void go_on(Course& course, exchange::Participant& participant) {
+  const results::Checkpoints checkpoints = course.run.checkpoints;
+  if (const std::string remark = checkpoints.load(course); !remark.empty()) spdlog::warn("{}", remark);
+  spdlog::info("goes on at t = {:.6e} s, window {}", course.run.ice.solid.time, course.window);
+  participant.send(ready_message(course.run.ice, course.surface));
+  participant.receive("begin");
 }
 
 }  // namespace
 
 void run_coupled(IceRun& run, exchange::Participant& participant) {
   IceBody& ice = run.ice;
-  IceSurface surface = surface_of(ice);
-  IceFrames frames(run.folder);
-  double dt = 0;
-  std::vector<double> node_loads, particle_loads;
-  {
-    const auto lap = ice.watch.lap("messages");
-    participant.send(ready_message(ice, surface));
-    const Message begin = participant.receive("begin");
-    dt = begin.header.at("step").get<double>();
-    distribute_loads(ice, surface, begin.view<std::int64_t>("load.vertices"), begin.view<double>("load.forces"),
-                     node_loads, particle_loads);
-  }
-  internal_forces(ice, 0);
-  advance_velocities(ice, node_loads, particle_loads, 0, dt);
-  spdlog::info("begins with a step of {:.3e} s", dt);
-  for (long window = 0; dt > 0; ++window) {
-    advance_positions(ice, dt);
+  Course course{.run = run, .surface = {}, .frames = IceFrames(run.folder)};
+  if (run.checkpoints.resuming())
+    go_on(course, participant);
+  else
+    begin(course, participant);
+  while (course.dt > 0) {
+    advance_positions(ice, course.dt);
     {
       const auto lap = ice.watch.lap("messages");
-      participant.send(surface_message(ice, surface, window));
+      participant.send(surface_message(ice, course.surface, course.window));
     }
-    note_step(run, dt);
-    dt = finish_window(run, participant, surface, frames, dt);
+    note_step(run, course.dt);
+    std::string checkpoint;
+    course.dt = finish_window(course, participant, checkpoint);
+    ++course.window;
+    if (checkpoint.empty() || !run.checkpoints.active()) continue;
+    const auto lap = ice.watch.lap("checkpoints");
+    run.checkpoints.save(checkpoint, course.window, ice.solid.time, course);
   }
   Message finished("finished");
   finished.header.update(last_words(run));

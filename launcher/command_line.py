@@ -9,7 +9,7 @@ from typing import NoReturn
 
 from launcher import ROOT, WRONG_INPUT
 
-NEED_PACKAGES = {"build", "run", "replay", "explain", "test", "bench", "draw", "conform"}
+NEED_PACKAGES = {"build", "run", "resume", "replay", "explain", "test", "bench", "draw", "conform"}
 
 
 class Parser(argparse.ArgumentParser):
@@ -74,6 +74,15 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="one line of JSON on standard output")
 
 
+def add_resume(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("run", metavar="RUN", help="folder of a run with a checkpoint")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=assignment, dest="settings",
+                        help="another end, e.g. run.end_time='2 ms'; checkpoints and threads may change as well")
+    parser.add_argument("--threads", metavar="N", type=positive, help="threads to use (default: all cores)")
+    parser.add_argument("--json", action="store_true", help="one line of JSON on standard output")
+    parser.add_argument("--no-pictures", action="store_false", dest="pictures", help="do not draw at the end")
+
+
 def add_replay(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("run", metavar="RUN", help="folder of a run that was started with --record")
     parser.add_argument("--only", required=True, choices=("structure_solver", "ice_solver", "fluid_solver"))
@@ -101,6 +110,8 @@ def build_parser() -> argparse.ArgumentParser:
     run.add_argument("--record", action="append_const", dest="settings", const="record.interface=true",
                      help="write down every message for ./polynya replay, the same as --set record.interface=true")
     run.add_argument("--no-pictures", action="store_false", dest="pictures", help="do not draw at the end")
+
+    add_resume(commands.add_parser("resume", help="go on with a run that was killed, or that is to end later"))
 
     add_replay(commands.add_parser("replay", help="one solver of a run against the run's record, no other process"))
 

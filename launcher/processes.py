@@ -40,8 +40,10 @@ def threads_for(scene: dict, name: str, cores: int) -> int:
     return ((scene.get("participants") or {}).get(name) or {}).get("threads") or cores
 
 
-def plan(scene: dict, names: list[str], folder: Path, binaries: Path, cores: int, socket: Path | None) -> list[Plan]:
-    """The processes of a run in the order of starting; `socket` is the endpoint's file of a coupled run."""
+def plan(scene: dict, names: list[str], folder: Path, binaries: Path, cores: int, socket: Path | None,
+         resume: Path | None = None) -> list[Plan]:
+    """The processes of a run in the order of starting; `socket` is the endpoint's file of a coupled run, `resume` the
+    checkpoint to go on from."""
     coupled = socket is not None
     endpoint, run_id = f"ipc://{socket}", uuid.uuid4().hex[:16]
     plans = []
@@ -50,6 +52,8 @@ def plan(scene: dict, names: list[str], folder: Path, binaries: Path, cores: int
             words = [*common_arguments(folder), "--bind", endpoint, "--run", run_id]
         else:
             words = arguments(name, folder, endpoint if coupled else None, run_id)
+        if resume:
+            words += ["--resume", str(resume)]
         front, setting, start_folder = swap.front(scene, name, str(binaries / PROGRAMS[name]))
         environment = {**program_environment(), "OMP_NUM_THREADS": str(threads_for(scene, name, cores))}
         plans.append(Plan(name, front + words, environment, setting, start_folder))

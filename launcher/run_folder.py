@@ -13,7 +13,8 @@ from launcher import ROOT, WrongInput
 
 # What a run consists of. Nothing else in the folder is ever touched.
 RECORD = "record"
-PARTS = ("series", "fields", "logs", "pictures", "replay", RECORD, "summary.json", "scene.json", "vehicle_surface.json")
+CHECKPOINTS = "checkpoints"
+PARTS = ("series", "fields", "logs", "pictures", "replay", RECORD, CHECKPOINTS, "summary.json", "scene.json", "vehicle_surface.json")
 SUMMARIES = "*_summary.json"
 LOCK = ".lock"
 
@@ -46,6 +47,28 @@ def check(folder: Path) -> None:
 def prepare(folder: Path, scene: dict) -> IO[str]:
     """Empties an earlier run, makes the sub-folders and writes scene.json. Returns the lock to hold during the run."""
     check(folder)
+    lock = hold(folder)
+    for part in PARTS:
+        remove(folder / part)
+    for summary in folder.glob(SUMMARIES):
+        remove(summary)
+    for part in ("logs", "series", "fields"):
+        (folder / part).mkdir()
+    write_json(folder / "scene.json", scene)
+    return lock
+
+
+def reopen(folder: Path, scene: dict) -> IO[str]:
+    """For a run that goes on: keeps what there is but the summaries. Returns the lock to hold during the run."""
+    lock = hold(folder)
+    for summary in (folder / "summary.json", *folder.glob(SUMMARIES)):
+        remove(summary)
+    write_json(folder / "scene.json", scene)
+    return lock
+
+
+def hold(folder: Path) -> IO[str]:
+    """The folder, made if it is new, for us alone."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         lock = open(folder / LOCK, "w", encoding="utf-8")
@@ -56,13 +79,6 @@ def prepare(folder: Path, scene: dict) -> IO[str]:
     except BlockingIOError:
         lock.close()
         raise WrongInput(f"--out {folder}: another run is using this folder") from None
-    for part in PARTS:
-        remove(folder / part)
-    for summary in folder.glob(SUMMARIES):
-        remove(summary)
-    for part in ("logs", "series", "fields"):
-        (folder / part).mkdir()
-    write_json(folder / "scene.json", scene)
     return lock
 
 

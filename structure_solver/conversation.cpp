@@ -28,12 +28,14 @@ void add_account(exchange::Message& message, const Account& account) {
   message.add<double>("account", {rows(values.size())}, values);
 }
 
-exchange::Message make_ready(const BuiltVehicle& vehicle, const Account& account) {
+exchange::Message make_ready(const BuiltVehicle& vehicle, const Account& account, double time) {
   exchange::Message ready("ready");
   ready.header["role"] = "solid";
   ready.header["body"] = "vehicle";
   ready.header["stable_step"] = vehicle.body->stable_step();
   ready.header["can_subdivide"] = true;
+  ready.header["can_checkpoint"] = true;
+  ready.header["time"] = time;
   for (const AccountEntry& entry : account_entries) ready.header["account"].push_back(std::string(entry.name));
   add_account(ready, account);
   const std::size_t n = vehicle.mesh.hull_nodes.size();
@@ -97,19 +99,33 @@ double advance_freely(VehicleBody& body, double step, double left, double step_f
   return step;
 }
 
-}  // namespace
+/// What goes on from window to window.
+struct Course {
+  VehicleBody& body;
+  Output& output;
+  double time = 0, dt = 0;  ///< s
+  long window = 0;          ///< the next one
+  Account account;
 
-void run_coupled(BuiltVehicle& vehicle, double step_factor, exchange::Participant& coupler, Output& output) {
+  void list_state(compute::StateArchive& archive) {
+    archive.item("body", body);
+    archive.item("time", time), archive.item("dt", dt), archive.item("window", window);
+    archive.item("account", account);
+    archive.item("output", output);  // last: it shortens files
+  }
+};
+
+/// From `ready` to the first half step; returns its length.
+double begin(BuiltVehicle& vehicle, exchange::Participant& coupler, Output& output,
+             std::vector<double>& hull_force) {
   VehicleBody& body = *vehicle.body;
-  Account account = body.account();
   exchange::Message begin;
   {
     const auto lap = output.watch().lap("messages");
-    coupler.send(make_ready(vehicle, account));
+    coupler.send(make_ready(vehicle, body.account(), 0));
     begin = coupler.receive("begin");
   }
-  double time = begin.header.value("time", 0.0), dt = positive_step(begin, "step");
-  std::vector<double> hull_force(3 * body.hull_vertices());
+  const double dt = positive_step(begin, "step");
   read_loads(begin, hull_force);
   if (!begin.view<std::int64_t>("load.vertices").empty()) {
     const auto lap = output.watch().lap("equilibrium");
@@ -117,10 +133,29 @@ void run_coupled(BuiltVehicle& vehicle, double step_factor, exchange::Participan
   }
   body.internal_forces(0);
   body.finish_step(hull_force, 0, dt);
-  account = body.account();
+  return dt;
+}
+
+}  // namespace
+
+void run_coupled(BuiltVehicle& vehicle, double step_factor, exchange::Participant& coupler, Output& output,
+                 const results::Checkpoints& checkpoints) {
+  VehicleBody& body = *vehicle.body;
+  Course course{.body = body, .output = output, .account = body.account()};
+  auto& [same_body, same_output, time, dt, window, account] = course;
+  std::vector<double> hull_force(3 * body.hull_vertices());
+  if (checkpoints.resuming()) {
+    if (const std::string remark = checkpoints.load(course); !remark.empty()) spdlog::warn("{}", remark);
+    spdlog::info("goes on at t = {:.6e} s, window {}", time, window);
+    coupler.send(make_ready(vehicle, account, time));
+    coupler.receive("begin");
+  } else {
+    dt = begin(vehicle, coupler, output, hull_force);
+    account = body.account();
+  }
 
   compute::Stopwatch& watch = output.watch();
-  for (long window = 0;; ++window) {
+  for (;;) {
     {
       const auto lap = watch.lap("positions");
       body.advance_positions(dt);
@@ -161,6 +196,11 @@ void run_coupled(BuiltVehicle& vehicle, double step_factor, exchange::Participan
       account = body.account();
     }
     if (finish) break;
+    ++window;
+    if (const auto folder = loads.header.value("checkpoint", std::string{}); !folder.empty() && checkpoints.active()) {
+      const auto lap = watch.lap("checkpoints");
+      checkpoints.save(folder, window, time, course);
+    }
   }
   exchange::Message finished("finished");
   finished.header.update(output.summary());

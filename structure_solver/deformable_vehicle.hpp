@@ -40,8 +40,12 @@ class DeformableVehicle final : public VehicleBody {
   VehicleFields fields() const override;
 
   const continuum::ExplicitSolid& solid() const { return solid_; }
+  void list_state(compute::StateArchive& archive) override { list_members(archive); }
 
  private:
+  POLYNYA_STATE_MEMBERS_WITHOUT((hull_nodes_, probe_), solid_, hull_nodes_, probe_, gravity_, mass_, initial_centre_z_,
+                                gravity_impulse_, start_damping_, wave_time_, damped_energy_, pending_damped_energy_,
+                                weight_, external_, damping_force_)
   double centre_of_mass_z() const;
   void add_start_damping();
   /// Power that the start's damping takes out, W.

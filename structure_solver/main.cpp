@@ -18,7 +18,7 @@ namespace {
 using namespace polynya;
 
 struct Options {
-  std::string scene, out, endpoint, run, name = "structure", surface;
+  std::string scene, out, endpoint, run, name = "structure", surface, resume;
   exchange::Replay replay;
   int threads = 0;
 };
@@ -32,6 +32,7 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
   app.add_option("--run", options.run, "identity of the run, the coupler's")->needs(connect);
   app.add_option("--name", options.name, "name under which the coupler expects this process");
   app.add_option("--write-surface", options.surface, "write the hull to this file (JSON) and end")->excludes(connect);
+  app.add_option("--resume", options.resume, "go on from this checkpoint (RUN/checkpoints/NUMBER)");
   exchange::add_replay_options(app, options.replay);
   app.add_option("--threads", options.threads, "threads to use; 0: as many as OpenMP offers")
       ->check(CLI::NonNegativeNumber);
@@ -45,7 +46,7 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
 }
 
 void start_log(const Options& options) {
-  auto logger = spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", true);
+  auto logger = spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", options.resume.empty());
   logger->flush_on(spdlog::level::info);
   spdlog::set_default_logger(logger);
 }
@@ -61,8 +62,15 @@ void describe(const structure::BuiltVehicle& v) {
                v.whole_mass, v.mesh.wall_thickness * 1e3, v.density, v.mass_note);
 }
 
+results::Checkpoints checkpoints_of(const Options& options, const scene::Scene& scene) {
+  if (options.replay.wanted()) return {};
+  return {options.out, options.name, "structure_solver", scene::to_json(scene).dump(), options.resume};
+}
+
 void run(const Options& options, const scene::Scene& scene, structure::BuiltVehicle& vehicle) {
-  structure::Output output(options.out, options.name, scene.run.end_time, vehicle);
+  const results::Checkpoints checkpoints = checkpoints_of(options, scene);
+  structure::Output output(options.out, options.name, scene.run.end_time, vehicle,
+                           checkpoints.resuming() ? results::Opening::continued : results::Opening::fresh);
   if (options.endpoint.empty() && !options.replay.wanted()) {
     structure::run_free_flight(vehicle, scene.run, output);
     output.close({});
@@ -72,7 +80,7 @@ void run(const Options& options, const scene::Scene& scene, structure::BuiltVehi
   }
   exchange::Participant coupler({options.endpoint, options.run, options.name, 60, options.replay});
   try {
-    structure::run_coupled(vehicle, scene.run.step_factor, coupler, output);
+    structure::run_coupled(vehicle, scene.run.step_factor, coupler, output, checkpoints);
     output.close(coupler.waits().intervals());
   } catch (const exchange::Stopped&) {
     output.close(coupler.waits().intervals());
@@ -98,6 +106,10 @@ int main(int argc, char** argv) {
   try {
     scene = scene::load_resolved_scene(options.scene);
     if (options.replay.wanted()) exchange::check_replayable(options.replay.record, options.name);
+    if (!options.resume.empty()) {
+      if (options.endpoint.empty()) throw std::runtime_error("a vehicle that flies alone keeps no checkpoints; run it again");
+      checkpoints_of(options, scene).check();
+    }
     start_log(options);
     vehicle = structure::build_vehicle(scene);
     describe(vehicle);
@@ -115,6 +127,10 @@ int main(int argc, char** argv) {
   } catch (const exchange::ReplayEnded& verdict) {
     std::printf("%s\n", verdict.what());
     return 0;
+  } catch (const results::CheckpointError& error) {
+    spdlog::error("{}", error.what());
+    std::fprintf(stderr, "%s: %s\n", "structure_solver", error.what());
+    return 2;
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());
     std::fprintf(stderr, "structure_solver: %s\n", error.what());

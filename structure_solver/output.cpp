@@ -1,6 +1,7 @@
 #include "structure_solver/output.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/compute/threads.hpp"
 #include "core/results/durable_file.hpp"
@@ -38,15 +39,19 @@ results::UnstructuredFields unstructured(const continuum::HexMesh& mesh, Vehicle
 
 }  // namespace
 
-Output::Output(std::string run_folder, std::string name, double duration, const BuiltVehicle& vehicle)
+Output::Output(std::string run_folder, std::string name, double duration, const BuiltVehicle& vehicle,
+               results::Opening opening)
     : folder_(std::move(run_folder)),
       name_(std::move(name)),
       vehicle_(vehicle),
       frames_(folder_, "vehicle"),
-      series_(folder_ + "/series/structure.csv", columns()),
+      series_(folder_ + "/series/structure.csv", columns(), opening),
       row_interval_(duration / most_rows) {
   account_ = first_ = vehicle.body->account();
-  write_row();
+  if (opening == results::Opening::fresh)
+    write_row();
+  else
+    last_row_ = std::numeric_limits<double>::infinity();  // no row before the checkpoint is loaded
 }
 
 void Output::write_row() {

@@ -15,7 +15,8 @@ namespace polynya::structure {
 class Output {
  public:
   /// The series gets at most about 10,000 rows over `duration` (s).
-  Output(std::string run_folder, std::string name, double duration, const BuiltVehicle& vehicle);
+  Output(std::string run_folder, std::string name, double duration, const BuiltVehicle& vehicle,
+         results::Opening opening = results::Opening::fresh);
 
   /// Books one finished window; writes a row of the series when one is due.
   void record(double time, double step, const Account& account);
@@ -28,6 +29,10 @@ class Output {
   /// RUN/NAME_summary.json, of a run without a coupler.
   void write_summary() const;
   compute::Stopwatch& watch() { return watch_; }
+
+  POLYNYA_STATE_WITHOUT((folder_, name_, vehicle_, report_, watch_), folder_, name_, vehicle_, report_, watch_, frames_,
+                        series_, row_interval_, next_row_, last_row_, time_, step_, smallest_step_, account_, first_,
+                        peak_stress_, peak_time_, peak_vertex_, steps_)
 
  private:
   void write_row();

@@ -112,4 +112,27 @@ VehicleFields RigidVehicle::fields() const {
   return f;
 }
 
+void RigidVehicle::list_state(compute::StateArchive& archive) {
+  // All members, so that a new one does not compile until it is looked at here; the rest is the mesh's.
+  [[maybe_unused]] auto& [motion, gravity, initial_centre_z, work, gravity_impulse, reference, arms, hull_arms, hull,
+                          last_force, turn_rate] = *this;
+  [[maybe_unused]] auto& [freedom, mass, inertia, centre, orientation, velocity, angular_momentum, kinetic_energy,
+                          step_change] = motion;
+  const auto numbers = [&](const char* name, auto& matrix) {
+    archive.values(name, matrix.data(), static_cast<std::size_t>(matrix.size()));
+  };
+  const auto points = [&](const std::string& name, Points& all) {
+    std::uint64_t count = all.size();
+    archive.item(name + ".count", count);
+    all.resize(count);
+    static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
+    archive.values(name, all.empty() ? nullptr : all.front().data(), 3 * all.size());
+  };
+  numbers("centre", centre), numbers("orientation", orientation), numbers("velocity", velocity);
+  numbers("angular_momentum", angular_momentum), numbers("turn_rate", turn_rate);
+  archive.item("kinetic_energy", kinetic_energy), archive.item("step_change", step_change);
+  archive.item("work", work), archive.item("gravity_impulse", gravity_impulse);
+  points("hull", hull), points("last_force", last_force);
+}
+
 }  // namespace polynya::structure

@@ -25,6 +25,8 @@ class RigidVehicle final : public VehicleBody {
   void hull_motion(std::span<double> positions, std::span<double> velocities) const override;
   VehicleFields fields() const override;
 
+  void list_state(compute::StateArchive& archive) override;
+
   const RigidMotion& motion() const { return motion_; }
   void set_spin(const Eigen::Vector3d& angular_velocity);  ///< rad/s in space; before the first step
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
 #include "core/continuum/hex_mesh.hpp"
 
 namespace polynya::structure {
@@ -88,6 +89,9 @@ class VehicleBody {
   /// Positions at t(n+1) and velocities of (n+1/2) of the hull's vertices, [hull vertices][3].
   virtual void hull_motion(std::span<double> positions, std::span<double> velocities) const = 0;
   virtual VehicleFields fields() const = 0;
+
+  /// What the body remembers from step to step, between steps.
+  virtual void list_state(compute::StateArchive& archive) = 0;
 };
 
 }  // namespace polynya::structure

@@ -2,6 +2,7 @@
 #include <span>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
 #include "core/contact/body.hpp"
 #include "core/contact/box_hash.hpp"
 #include "core/contact/surface_topology.hpp"
@@ -36,7 +37,14 @@ class Candidates {
     return std::span(list_).subspan(begin, static_cast<std::size_t>(start_[k + 1]) - begin);
   }
 
+  void list_state(compute::StateArchive& archive) {
+    if (archive.loading()) start_.clear();
+    list_members(archive);
+  }
+
  private:
+  POLYNYA_STATE_MEMBERS_WITHOUT((hash_, boxes_, found_), hash_, boxes_, found_, near_, start_, list_)
+
   struct Found {
     std::vector<std::int32_t> points, counts, triangles;
   };

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
 #include "core/contact/body.hpp"
 #include "core/contact/inheritance.hpp"
 #include "core/contact/touch.hpp"
@@ -63,6 +64,8 @@ class ContactSprings {
   void settle(const Body& primary, const Body& secondary, double dt, std::span<const Touch> touches);
   /// The same when vertices were renumbered: with the velocities there were.
   void settle_as_before(double dt, std::span<const Touch> touches);
+
+  POLYNYA_STATE(law_, load_primary_, load_secondary_, lost_, settled_damping_)
 
  private:
   void limit_stiffness(const Body& primary, const Body& secondary, double dt, std::vector<Touch>& touches);

@@ -28,9 +28,17 @@ class EdgeContact {
   void find(const Body& primary, const Body& secondary, const SurfaceTopology& first, const SurfaceTopology& second,
             double dt, std::vector<Touch>& touches);
   double take_dropped_energy();
+
+  void list_state(compute::StateArchive& archive) {
+    if (archive.loading()) start_.clear();
+    list_members(archive);
+  }
   static void set_anchor(const Body& primary, const Body& secondary, const Touch& touch, const Vector3& slip);
 
  private:
+  POLYNYA_STATE_MEMBERS_WITHOUT((next_, hash_, boxes_), held_, next_, touched_first_, touched_second_, dropped_energy_,
+                                names_first_, names_second_, start_, list_, at_vertex_start_first_, at_vertex_first_,
+                                at_vertex_start_second_, at_vertex_second_, hash_, boxes_)
   struct Pair {
     std::int32_t first = 0, second = 0;  ///< edges of the primary and of the secondary surface
     PairState state;

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
 #include "core/contact/body.hpp"
 #include "core/contact/vector3.hpp"
 
@@ -17,6 +18,8 @@ class MotionWatch {
   bool outdated(const Body& primary, const Body& secondary, double dt, double margin);
   /// Longest relative motion of a vertex in the last step, m, as the last `outdated` found it.
   double step_motion() const { return step_motion_; }
+
+  POLYNYA_STATE(primary_, secondary_, allowance_, chunk_excess_, chunk_motion_, step_motion_)
 
  private:
   struct Spread {  // of displacements of the primary: |displacement - centre| <= most

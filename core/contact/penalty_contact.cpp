@@ -33,6 +33,16 @@ double largest_radius(const Body& body) {
 
 }  // namespace
 
+void PenaltyContact::list_state(compute::StateArchive& archive) {
+  list_members(archive);
+  for (Touch& touch : touches_) touch.state = nullptr;  // only looked at within an evaluation
+}
+
+void SelfContact::list_state(compute::StateArchive& archive) {
+  list_members(archive);
+  for (Touch& touch : touches_) touch.state = nullptr;
+}
+
 bool is_finer(const Body& primary, const Body& secondary) {
   return secondary.triangle_count() > 0 && short_edge(primary) < 0.99 * short_edge(secondary);
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "core/compute/state_archive.hpp"
 #include "core/contact/contact_law.hpp"
 #include "core/contact/edge_contact.hpp"
 #include "core/contact/motion_watch.hpp"
@@ -34,7 +35,12 @@ class PenaltyContact {
 
   std::size_t searches() const { return searches_; }  ///< so far
 
+  /// Between evaluations. What the search works with is made anew.
+  void list_state(compute::StateArchive& archive);
+
  private:
+  POLYNYA_STATE_MEMBERS_WITHOUT((forces_), law_, margin_, first_, second_, secondary_points_, primary_points_, edges_,
+                                watch_, springs_, primary_triangles_, touches_, forces_, searches_, last_step_, outdated_)
   void search(const Body& primary, const Body& secondary);
 
   ContactLaw law_;
@@ -61,7 +67,11 @@ class SelfContact {
   /// `secondary`, `primary` is empty.
   const ContactForces& evaluate(const Body& body, const Exclusion& exclusion, double dt);
 
+  void list_state(compute::StateArchive& archive);  ///< as PenaltyContact's
+
  private:
+  POLYNYA_STATE_MEMBERS_WITHOUT((forces_), law_, margin_, topology_, points_, watch_, springs_, touches_, forces_,
+                                last_step_, outdated_)
   ContactLaw law_;
   double margin_ = 0;
   SurfaceTopology topology_;

@@ -44,6 +44,9 @@ class PointContact {
   /// Energy that springs of pairs held when they ended, J, since the last call.
   double take_dropped_energy();
 
+  POLYNYA_STATE_WITHOUT((active_, candidate_of_, found_, touched_), settings_, candidates_, states_, fresh_, ids_,
+                        triangle_ids_, held_, active_, candidate_of_, found_, touched_, dropped_energy_)
+
   /// Fixes the tangential spring of a touch so that its stretch is `slip`.
   static void set_anchor(const Body& points, const Body& surface, const Touch& touch, const Vector3& slip);
 

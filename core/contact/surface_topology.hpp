@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
+
 namespace polynya::contact {
 
 /// How a surface goes on across an edge: `smooth` (the two faces belong to one patch), `mirror` (on a symmetry plane,
@@ -26,6 +28,8 @@ struct SurfaceTopology {
   std::vector<std::uint8_t> rim_vertex;                ///< [nv] 1: a rim ends or passes here
   std::vector<std::int32_t> ring_start, ring;  ///< of each triangle: those of its patch that share a vertex, itself too
   std::vector<ConvexEdge> convex_edges;
+
+  POLYNYA_STATE(neighbour, edge_kind, fan_start, fan, rim_vertex, ring_start, ring, convex_edges)
 };
 
 /// triangles [nt][3], positions [nv][3]; mirror: planes x = 0 and y = 0 are planes of symmetry.

@@ -43,6 +43,9 @@ struct ElementState {
   std::vector<double> bulking_pressure;  ///< Pa
   std::vector<double> step_limit;        ///< s, stable step of the element alone
   std::vector<double> alive;             ///< 1 living, 0 removed
+
+  POLYNYA_STATE(stress, volume, reference_volume, mass, internal_energy, hourglass_energy, viscous_energy, damage,
+                plastic_strain, bulking_pressure, step_limit, alive)
 };
 
 /// Traction -rho c_p v_n A - rho c_s v_t A on the nodes of a boundary that waves should leave through.
@@ -50,6 +53,8 @@ struct DampedNodes {
   std::vector<std::int32_t> nodes;
   std::vector<double> damping;       ///< [k][6], symmetric matrix, N s/m
   std::vector<double> static_force;  ///< [k][3], N, what the medium beyond exerts at rest
+
+  POLYNYA_STATE(nodes, damping, static_force)
 };
 
 /// Energies since the start, J. Conserved to round-off: balance() stays at its value of the start.
@@ -104,6 +109,13 @@ struct ExplicitSolid {
 
   std::size_t node_count() const { return masses.size(); }
   std::size_t element_count() const { return mesh.element_count(); }
+
+  POLYNYA_STATE_WITHOUT((name, law, numerics, connectivity, gather_start, gather_slot), name, mesh, law, numerics, time,
+                        positions, velocities, internal_force, masses, fixed, living_elements, element, damped,
+                        step_limit, kinetic_energy, external_work, boundary_flux, removed_energy, step_change,
+                        pending_external_work, pending_boundary_flux, pending_step_change, connectivity,
+                        natural_hourglass, irregular, hourglass_stiffness, exposure, idle, element_force, gather_start,
+                        gather_slot)
 };
 
 /// A body at rest in its reference configuration. Throws std::invalid_argument naming the first element whose volume is

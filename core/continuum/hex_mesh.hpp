@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
+
 namespace polynya::continuum {
 
 /// Eight-node hexahedra. Node order of VTK: 0-1-2-3 counter-clockwise seen from the side of 4-5-6-7, which lie above
@@ -13,6 +15,8 @@ struct HexMesh {
 
   std::size_t node_count() const { return nodes.size() / 3; }
   std::size_t element_count() const { return elements.size() / 8; }
+
+  POLYNYA_STATE_WITHOUT((elements), nodes, elements)
 };
 
 }  // namespace polynya::continuum

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/results/durable_file.hpp"
@@ -21,6 +22,23 @@ void FrameSeries::write(int number, const UnstructuredFields& fields, double tim
   std::erase_if(entries_, [&](const Entry& entry) { return entry.file == file; });
   entries_.push_back({file, time});
   write_index();
+}
+
+void FrameSeries::list_state(compute::StateArchive& archive) {
+  archive.item("frames", entries_);
+  if (!archive.loading()) return;
+  remove_others();
+  if (!entries_.empty()) write_index();
+}
+
+void FrameSeries::remove_others() const {
+  if (!std::filesystem::is_directory(folder_)) return;
+  for (const auto& found : std::filesystem::directory_iterator(folder_)) {
+    const std::string file = found.path().filename().string();
+    const bool ours = file.starts_with(name_ + "_") && file.ends_with(".vtkhdf");
+    if (ours && std::none_of(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.file == file; }))
+      std::filesystem::remove(found.path());
+  }
 }
 
 void FrameSeries::write_index() const {

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
 #include "core/results/frame.hpp"
 
 namespace polynya::results {
@@ -18,11 +19,17 @@ class FrameSeries {
 
   std::size_t count() const { return entries_.size(); }
 
+  /// The index; loading rewrites it and removes frames that came later.
+  void list_state(compute::StateArchive& archive);
+
  private:
   struct Entry {
     std::string file;
     double time;
+
+    POLYNYA_STATE(file, time)
   };
+  void remove_others() const;
   void write_index() const;
 
   std::string folder_;

@@ -12,24 +12,43 @@
 
 namespace polynya::results {
 
-TimeSeries::TimeSeries(std::string path, std::vector<Column> columns)
+TimeSeries::TimeSeries(std::string path, std::vector<Column> columns, Opening opening)
     : path_(std::move(path)), columns_(std::move(columns)) {
   if (columns_.empty()) throw ResultsError("the time series " + path_ + " has no columns");
   create_folder_of(path_);
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const int mode = opening == Opening::fresh ? O_WRONLY | O_CREAT | O_TRUNC : O_RDWR;
+  descriptor_ = ::open(path_.c_str(), mode | O_CLOEXEC, 0644);
   if (descriptor_ < 0) throw_file_error(path_, errno);
   for (const Column& column : columns_) {
     if (!line_.empty()) line_ += ',';
     line_ += column.name + " [" + (column.unit.empty() ? "-" : column.unit) + "]";
   }
-  write_line();
+  if (opening == Opening::fresh) {
+    write_line();
+    return;
+  }
+  std::string found(line_.size() + 1, ' ');
+  if (::pread(descriptor_, found.data(), found.size(), 0) != static_cast<ssize_t>(found.size()) || found != line_ + '\n')
+    throw ResultsError("the time series " + path_ + " has other columns than this program writes");
+}
+
+void TimeSeries::list_state(compute::StateArchive& archive) {
+  archive.item("length", length_);
+  if (!archive.loading()) return;
+  const off_t there = ::lseek(descriptor_, 0, SEEK_END);
+  if (there < length_)
+    throw ResultsError("the time series " + path_ + " has " + std::to_string(there) + " bytes, " +
+                       std::to_string(length_) + " when the checkpoint was taken");
+  if (::ftruncate(descriptor_, length_) != 0 || ::lseek(descriptor_, length_, SEEK_SET) < 0)
+    throw_file_error(path_, errno);
 }
 
 TimeSeries::TimeSeries(TimeSeries&& other) noexcept
     : path_(std::move(other.path_)),
       columns_(std::move(other.columns_)),
       line_(std::move(other.line_)),
-      descriptor_(std::exchange(other.descriptor_, -1)) {}
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      length_(other.length_) {}
 
 TimeSeries::~TimeSeries() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -57,6 +76,7 @@ void TimeSeries::write_line() {
     if (written < 0) throw_file_error(path_, errno);
     done += static_cast<std::size_t>(written);
   }
+  length_ += static_cast<std::int64_t>(line_.size());
 }
 
 }  // namespace polynya::results

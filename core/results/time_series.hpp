@@ -1,9 +1,15 @@
 #pragma once
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/compute/state_archive.hpp"
+
 namespace polynya::results {
+
+/// Whether a run begins, or goes on from a checkpoint with the files that are there.
+enum class Opening { fresh, continued };
 
 /// A column of a time series; the unit is written behind the name: "speed [m/s]". An empty unit means a plain number:
 /// "[-]".
@@ -17,7 +23,9 @@ struct Column {
 class TimeSeries {
  public:
   /// Creates (or empties) the file and writes the header line; creates the folder. Throws ResultsError.
-  TimeSeries(std::string path, std::vector<Column> columns);
+  /// Continued: keeps what is there, to be cut to the length of the checkpoint by list_state(); the header must be that
+  /// of the columns.
+  TimeSeries(std::string path, std::vector<Column> columns, Opening opening = Opening::fresh);
   ~TimeSeries();
   TimeSeries(TimeSeries&& other) noexcept;
   TimeSeries& operator=(TimeSeries&&) = delete;
@@ -29,6 +37,9 @@ class TimeSeries {
 
   const std::vector<Column>& columns() const { return columns_; }
 
+  /// The length of the file; loading cuts off the rows that came later. Throws ResultsError if there are fewer.
+  void list_state(compute::StateArchive& archive);
+
  private:
   void write_line();
 
@@ -36,6 +47,7 @@ class TimeSeries {
   std::vector<Column> columns_;
   std::string line_;
   int descriptor_ = -1;
+  std::int64_t length_ = 0;  ///< bytes written
 };
 
 }  // namespace polynya::results

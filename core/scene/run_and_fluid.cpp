@@ -69,6 +69,7 @@ void read_run(const Values& values, Scene& scene) {
   run.join_timeout = values.number("run.join_timeout");
   run.gravity = values.number("run.gravity");
   run.seed = std::lround(values.number("run.seed"));
+  scene.checkpoint = {values.number("checkpoint.interval"), values.number("checkpoint.wall_interval")};
 }
 
 void read_resolution(const Values& values, Scene& scene) {

@@ -134,6 +134,12 @@ struct Contact {
   std::string edges = "auto";   ///< "auto", "on" or "off": edges against edges
 };
 
+/// Checkpoints, whichever comes first; 0: never.
+struct Checkpoint {
+  double interval = 0;       ///< s of simulated time
+  double wall_interval = 0;  ///< s of wall time
+};
+
 /// The interface on record (core/exchange/recorder.hpp); only what differs from "all of it" is there.
 struct Record {
   std::string participants;     ///< names between commas; empty: all
@@ -162,6 +168,7 @@ struct Scene {
   std::optional<Ice> ice;
   std::optional<Fluid> fluid;
   Contact contact;
+  Checkpoint checkpoint;
   std::optional<Record> record;  ///< absent: nothing is recorded
   std::map<std::string, MaterialCard> materials;
   std::map<std::string, Effect> effects;  ///< "fluid", "conversion", "friction", ...: all of docs/scene.md, always

@@ -179,6 +179,10 @@ std::vector<KeyRule> fluid_rules() {
 
 std::vector<KeyRule> record_rules() {
   std::vector<KeyRule> rules{
+      number("checkpoint.interval", dim::time, "0",
+             "simulated time between checkpoints, RUN/checkpoints (docs/coupling.md); 0: none by simulated time", 0),
+      number("checkpoint.wall_interval", dim::time, "30 min",
+             "wall time between checkpoints; 0: none by wall time. The last two are kept", 0),
       choice("record.interface", {"true", "false"}, "false",
              "write down every message between coupler and solvers, RUN/record (docs/debugging.md)"),
       text("record.participants", "all", "whose messages, e.g. \"ice\" or \"structure, ice\""),

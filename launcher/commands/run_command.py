@@ -45,12 +45,13 @@ def run(arguments: argparse.Namespace) -> int:
     return outcome.exit_code
 
 
-def supervise(scene: dict, names: list[str], folder: Path, cores: int, plain: bool) -> Outcome:
+def supervise(scene: dict, names: list[str], folder: Path, cores: int, plain: bool,
+              resume: Path | None = None) -> Outcome:
     """Runs the processes; the socket's private folder is gone afterwards, whatever happened."""
     socket_folder = processes.make_socket_folder() if len(names) > 1 else None
     try:
         socket = socket_folder / "coupler" if socket_folder else None
-        plans = processes.plan(scene, names, folder, build.program_folder(), cores, socket)
+        plans = processes.plan(scene, names, folder, build.program_folder(), cores, socket, resume)
         series = summary.series_path(folder, names)
         with LiveLine(scene, series, plain) as line:
             return Supervisor(plans, folder / "logs", line.update, has_begun=series.exists).run()
