@@ -27,7 +27,9 @@ void Account::set_initial(const exchange::Message& message) {
   initial_ = values_;
 }
 
-bool Account::has(std::string_view name) const { return std::find(names_.begin(), names_.end(), name) != names_.end(); }
+bool Account::has(std::string_view name) const {
+  return std::find(names_.begin(), names_.end(), name) != names_.end();
+}
 
 double Account::operator[](std::string_view name) const {
   const auto found = std::find(names_.begin(), names_.end(), name);

@@ -10,7 +10,9 @@ SolidSide* Conversation::find(Body body) {
   return nullptr;
 }
 
-const SolidSide* Conversation::find(Body body) const { return const_cast<Conversation*>(this)->find(body); }
+const SolidSide* Conversation::find(Body body) const {
+  return const_cast<Conversation*>(this)->find(body);
+}
 
 namespace {
 

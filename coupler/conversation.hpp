@@ -35,7 +35,7 @@ struct WindowEnd {
   double next_length = 0;  ///< s, of the next window
   bool free = false;       ///< nothing acts between the participants before its end
   bool finish = false;
-  long frame = -1;  ///< number of the field frame to write now, -1 for none
+  long frame = -1;         ///< number of the field frame to write now, -1 for none
   std::string checkpoint;  ///< folder of the checkpoint to write before the next window; empty: none
 };
 

@@ -19,7 +19,7 @@
 namespace polynya::coupler {
 namespace {
 
-constexpr long cuts_between_samples = 100;   // every 100 cuts a seeded sample is recut by CGAL
+constexpr long cuts_between_samples = 100;  // every 100 cuts a seeded sample is recut by CGAL
 constexpr std::size_t cells_in_sample = 8;
 constexpr double largest_sample_difference = 1e-10;
 
@@ -56,7 +56,8 @@ void begin(Run& run, const std::vector<std::string>& names) {
     exchange::Message message("begin");
     message.header["time"] = 0.0;
     add_overlap(message, cells, fluid.grid);
-    if (const SolidSide* ice = run.conversation.find(Body::ice)) run.slowest_answer = ice_share_of_step * ice->stable_step;
+    if (const SolidSide* ice = run.conversation.find(Body::ice))
+      run.slowest_answer = ice_share_of_step * ice->stable_step;
     bound_lag(run, cells);
     run.conversation.hub.send(fluid.name, std::move(message));
     const exchange::Message answer = run.conversation.hub.receive(fluid.name, "pressure");
@@ -66,9 +67,9 @@ void begin(Run& run, const std::vector<std::string>& names) {
   }
   plan_next_span(run);
   run.keeper.step = run.keeper.length = run.planned_step;
-  spdlog::info("first window {:.3e} s, {} windows in the first span; stable: solids {:.3e} s, fluid {:.3e} s, lag {:.3e} s",
-               run.keeper.step, run.keeper.windows_left, run.limits.solid_stable, run.limits.fluid_stable,
-               run.limits.lag_limit);
+  spdlog::info(
+      "first window {:.3e} s, {} windows in the first span; stable: solids {:.3e} s, fluid {:.3e} s, lag {:.3e} s",
+      run.keeper.step, run.keeper.windows_left, run.limits.solid_stable, run.limits.fluid_stable, run.limits.lag_limit);
   run.monitor.emplace(run.scene, run.folder, run.conversation);
   begin_balance(run, names);
   begin_solids(run.conversation, run.keeper.step);
@@ -174,7 +175,8 @@ void take_fluid_loads(Run& run, const exchange::Message& answer) {
     side.restart_mean();
   }
   if (run.keeper.span == 0) {
-    // The first span fits the flow of the start to the walls' first motion: no loads come of it, the books open after it.
+    // The first span fits the flow of the start to the walls' first motion: no loads come of it, the books open after
+    // it.
     fluid.account.set_initial(answer);
     return;
   }
@@ -200,9 +202,10 @@ std::array<double, 3> radiation_force(const SolidSide& side, std::size_t v) {
           -(z[5] * u[0] + z[4] * u[1] + z[2] * u[2])};
 }
 
-/// Takes one window's share of the outstanding fluid impulses as forces of this window. Those loads are old by more than
-/// a span, and a wall that oscillates faster would be driven by them. So the change since then is answered at once by the
-/// water's impedance; the impulse of it is taken from what is outstanding, and the fluid's own answer replaces it later.
+/// Takes one window's share of the outstanding fluid impulses as forces of this window. Those loads are old by more
+/// than a span, and a wall that oscillates faster would be driven by them. So the change since then is answered at once
+/// by the water's impedance; the impulse of it is taken from what is outstanding, and the fluid's own answer replaces
+/// it later.
 void hand_on_fluid_impulse(Run& run, double acting_time) {
   const double share = 1.0 / static_cast<double>(std::max(1L, run.keeper.windows_left));
   for (SolidSide& side : run.conversation.solids) {

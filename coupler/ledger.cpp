@@ -94,7 +94,8 @@ void LedgerFile::append(double time, long window, double acting_time, const Ledg
   row.insert(row.end(), ledger.fluid_reported.begin(), ledger.fluid_reported.end());
   row.insert(row.end(), ledger.contact_work.begin(), ledger.contact_work.end());
   row.insert(row.end(), ledger.fluid_work.begin(), ledger.fluid_work.end());
-  row.insert(row.end(), {ledger.contact_stored, ledger.contact_friction, ledger.contact_damping, ledger.contact_released});
+  row.insert(row.end(),
+             {ledger.contact_stored, ledger.contact_friction, ledger.contact_damping, ledger.contact_released});
   series_.append(row);
 }
 

@@ -33,7 +33,8 @@ int main(int argc, char** argv) {
   app.add_option("--bind", options.endpoint, "endpoint, e.g. ipc:///tmp/x/coupler or tcp://0.0.0.0:5555")->required();
   app.add_option("--run", options.run, "identity of the run; participants must name the same")->required();
   app.add_option("--resume", options.resume, "go on from this checkpoint (RUN/checkpoints/NUMBER)");
-  app.add_option("--connect-timeout", options.connect_timeout, "seconds to wait for all participants (default: the scene's)");
+  app.add_option("--connect-timeout", options.connect_timeout,
+                 "seconds to wait for all participants (default: the scene's)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

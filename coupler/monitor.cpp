@@ -12,20 +12,42 @@ double symmetry_scale(scene::Symmetry symmetry) {
 }
 
 std::vector<results::Column> progress_columns() {
-  return {{"time", "s"}, {"window", ""}, {"span", ""}, {"vehicle_speed", "m/s"}, {"vehicle_momentum", "kg m/s"},
-          {"vehicle_position", "m"}, {"energy_error", ""}, {"momentum_error", ""}, {"contact_force", "N"},
-          {"fluid_force", "N"}, {"head_stress", "Pa"}, {"vehicle_kinetic", "J"}, {"vehicle_internal", "J"},
-          {"ice_kinetic", "J"}, {"ice_internal", "J"}, {"fluid_energy_change", "J"}, {"contact_energy", "J"},
-          {"dissipated", "J"}, {"external_work", "J"}, {"numerical_work", "J"}, {"broken_ice_mass", "kg"},
-          {"converted_elements", ""}, {"particles", ""}, {"wall_pressure", "Pa"}, {"head_pressure", "Pa"}, {"contact_depth", "m"},
-          {"fluid_step", "s"}, {"window_step", "s"}};
+  return {{"time", "s"},
+          {"window", ""},
+          {"span", ""},
+          {"vehicle_speed", "m/s"},
+          {"vehicle_momentum", "kg m/s"},
+          {"vehicle_position", "m"},
+          {"energy_error", ""},
+          {"momentum_error", ""},
+          {"contact_force", "N"},
+          {"fluid_force", "N"},
+          {"head_stress", "Pa"},
+          {"vehicle_kinetic", "J"},
+          {"vehicle_internal", "J"},
+          {"ice_kinetic", "J"},
+          {"ice_internal", "J"},
+          {"fluid_energy_change", "J"},
+          {"contact_energy", "J"},
+          {"dissipated", "J"},
+          {"external_work", "J"},
+          {"numerical_work", "J"},
+          {"broken_ice_mass", "kg"},
+          {"converted_elements", ""},
+          {"particles", ""},
+          {"wall_pressure", "Pa"},
+          {"head_pressure", "Pa"},
+          {"contact_depth", "m"},
+          {"fluid_step", "s"},
+          {"window_step", "s"}};
 }
 
 }  // namespace
 
 Monitor::Monitor(const scene::Scene& scene, const std::string& run_folder, const Conversation& conversation,
                  results::Opening opening)
-    : scene_(scene), series_(run_folder + "/series/coupler.csv", progress_columns(), opening),
+    : scene_(scene),
+      series_(run_folder + "/series/coupler.csv", progress_columns(), opening),
       scale_(symmetry_scale(scene.symmetry)),
       atmospheric_pressure_(scene.fluid ? scene.fluid->atmospheric_pressure : 0.0) {
   read_vehicle(conversation);
@@ -82,7 +104,8 @@ Balance balance(const Conversation& conversation, const Ledger& ledger, double a
   }
   if (conversation.fluid) {
     const Account& fluid = conversation.fluid->account;
-    // What walls gave to fluid they carried along ("node_fix") is in the fluid's kinetic energy and missing in the solids'.
+    // What walls gave to fluid they carried along ("node_fix") is in the fluid's kinetic energy and missing in the
+    // solids'.
     sum.fluid = fluid.change({"kinetic", "internal", "gravity", "remap_loss", "hourglass", "put_to_rest"});
     sum.external -= fluid.change({"boundary_work", "boundary_energy"});
     // The fluid works on walls with absolute pressure, solids count from the atmosphere: their insides hold against it.
@@ -118,15 +141,34 @@ void Monitor::append_row(const TimeKeeper& keeper, const Conversation& conversat
   fluid_before_ = ledger.fluid_taken[body];
   time_before_ = keeper.time;
 
-  const double row[] = {keeper.time, static_cast<double>(keeper.window), static_cast<double>(keeper.span), speed_,
-                        scale_ * v["momentum_z"], v["centre_of_mass_z"], energy_error, momentum_error,
-                        scale_ * contact_force, scale_ * fluid_force, v["head_stress"], scale_ * v["kinetic"],
-                        scale_ * v["internal"], scale_ * i["kinetic"], scale_ * i["internal"],
-                        scale_ * sum.fluid, scale_ * sum.contact,
+  const double row[] = {keeper.time,
+                        static_cast<double>(keeper.window),
+                        static_cast<double>(keeper.span),
+                        speed_,
+                        scale_ * v["momentum_z"],
+                        v["centre_of_mass_z"],
+                        energy_error,
+                        momentum_error,
+                        scale_ * contact_force,
+                        scale_ * fluid_force,
+                        v["head_stress"],
+                        scale_ * v["kinetic"],
+                        scale_ * v["internal"],
+                        scale_ * i["kinetic"],
+                        scale_ * i["internal"],
+                        scale_ * sum.fluid,
+                        scale_ * sum.contact,
                         scale_ * (ledger.contact_friction + i["viscous"] + i["hourglass"] + i["conversion_heat"]),
-                        scale_ * sum.external, scale_ * sum.numerical, scale_ * i["broken_mass"],
-                        i["converted_elements"], i["particles"], wall_pressure_, head_pressure_, deepest_contact_,
-                        keeper.time - keeper.span_start, window_step};
+                        scale_ * sum.external,
+                        scale_ * sum.numerical,
+                        scale_ * i["broken_mass"],
+                        i["converted_elements"],
+                        i["particles"],
+                        wall_pressure_,
+                        head_pressure_,
+                        deepest_contact_,
+                        keeper.time - keeper.span_start,
+                        window_step};
   series_.append(row);
 }
 
@@ -155,9 +197,10 @@ nlohmann::json Monitor::summary(const TimeKeeper& keeper, const Conversation& co
   summary["largest_momentum_error"] = largest_momentum_error_;
   summary["peak_wall_pressure"] = peak_wall_pressure_;
   summary["deepest_contact"] = deepest_contact_;
-  summary["balance"] = {{"vehicle", scale_ * sum.vehicle}, {"ice", scale_ * sum.ice}, {"fluid", scale_ * sum.fluid},
-                        {"contact", scale_ * sum.contact}, {"external", scale_ * sum.external},
-                        {"numerical", scale_ * sum.numerical}, {"defect", scale_ * sum.energy_defect()}};
+  summary["balance"] = {{"vehicle", scale_ * sum.vehicle},       {"ice", scale_ * sum.ice},
+                        {"fluid", scale_ * sum.fluid},           {"contact", scale_ * sum.contact},
+                        {"external", scale_ * sum.external},     {"numerical", scale_ * sum.numerical},
+                        {"defect", scale_ * sum.energy_defect()}};
   for (const SolidSide& side : conversation.solids)
     for (std::size_t n = 0; n < side.account.names().size(); ++n)
       summary["accounts"][side.name][side.account.names()[n]] = side.account.values()[n];

@@ -16,8 +16,8 @@ struct Balance {
   double vehicle = 0, ice = 0, fluid = 0;  ///< J, change of what each stores, losses that are booked included
   double contact = 0;                      ///< J, stored in penalty springs, dissipated by friction, released
   double external = 0;                     ///< J, put in from outside: gravity, boundaries
-  double numerical = 0;                    ///< J, part of the energy defect that the scheme can name (swept volume, change of step)
-  double momentum = 0;                     ///< kg m/s, change of vertical momentum less outside impulses
+  double numerical = 0;  ///< J, part of the energy defect that the scheme can name (swept volume, change of step)
+  double momentum = 0;   ///< kg m/s, change of vertical momentum less outside impulses
   /// What does not close. Booked defects count as error: no physical reservoir took that energy.
   double energy_defect() const { return vehicle + ice + fluid + contact - external; }
 };

@@ -39,7 +39,8 @@ std::unique_ptr<exchange::Recorder> start_recorder(const scene::Scene& scene, co
 void finish_recorder(exchange::Recorder& recorder) {
   const exchange::Recorder::Statistics s = recorder.close();
   spdlog::info(
-      "record: {} messages, {:.1f} MB; took the coupler {:.2f} s in all windows and {:.2f} s at the end, and {:.2f} s of "
+      "record: {} messages, {:.1f} MB; took the coupler {:.2f} s in all windows and {:.2f} s at the end, and {:.2f} s "
+      "of "
       "processor time beside it",
       s.messages, 1e-6 * static_cast<double>(s.bytes), s.noting_seconds, s.closing_seconds, s.busy_seconds);
 }

@@ -76,7 +76,9 @@ class Renumbering {
   /// Rows of `old`, those of `otherwise` for vertices that are new.
   std::vector<double> carry(const std::vector<double>& old, std::size_t width, std::vector<double> otherwise) const {
     for (std::size_t v = 0; v < from_.size(); ++v)
-      if (from_[v] >= 0) std::copy_n(old.begin() + from_[v] * static_cast<std::ptrdiff_t>(width), width, otherwise.begin() + static_cast<std::ptrdiff_t>(v * width));
+      if (from_[v] >= 0)
+        std::copy_n(old.begin() + from_[v] * static_cast<std::ptrdiff_t>(width), width,
+                    otherwise.begin() + static_cast<std::ptrdiff_t>(v * width));
     return otherwise;
   }
 
@@ -144,7 +146,8 @@ void read_surface(SolidSide& side, const exchange::Message& surface) {
   side.impedance = renumbering.carry(old_impedance, 6, std::vector<double>(6 * side.vertices(), 0.0));
   side.seen_velocity = renumbering.carry(old_seen, 3, side.velocities);
   side.start_force.clear();
-  if (!old_start.empty()) side.start_force = renumbering.carry(old_start, 3, std::vector<double>(3 * side.vertices(), 0.0));
+  if (!old_start.empty())
+    side.start_force = renumbering.carry(old_start, 3, std::vector<double>(3 * side.vertices(), 0.0));
   std::vector<double> as_if_always_so = side.velocities;
   for (double& value : as_if_always_so) value *= side.sum_time;
   side.velocity_sum = renumbering.carry(old_sum, 3, std::move(as_if_always_so));

@@ -16,11 +16,11 @@ inline constexpr int body_count = 2;
 struct SolidSide {
   std::string name;  ///< participant name: "structure", "ice"
   Body body = Body::vehicle;
-  double stable_step = 0;  ///< s
+  double stable_step = 0;      ///< s
   bool can_subdivide = false;  ///< may take steps of its own within a free window
   bool can_checkpoint = false;
-  double ready_time = 0;       ///< s, that of `ready`: above 0 where it goes on from a checkpoint
-  int new_threads = 0;         ///< number of threads to suggest with the next loads; 0: nothing new
+  double ready_time = 0;  ///< s, that of `ready`: above 0 where it goes on from a checkpoint
+  int new_threads = 0;    ///< number of threads to suggest with the next loads; 0: nothing new
   Account account;
 
   std::vector<std::int64_t> ids;
@@ -30,14 +30,14 @@ struct SolidSide {
   std::vector<double> velocities;              ///< m/s, in the middle of the window
   bool topology_changed = false;
 
-  std::vector<double> contact_force;     ///< N, of this window
-  std::vector<double> fluid_force;       ///< N, of this window
-  std::vector<double> fluid_impulse;     ///< N s, given by the fluid and not yet handed on
-  std::vector<double> start_force;       ///< N, of the fluid at time 0; empty once the fluid's answers have come
-  std::vector<double> impedance;         ///< [nv][6] kg/s: xx, yy, zz, xy, yz, zx; resistance of the fluid to a vertex
-  std::vector<double> seen_velocity;     ///< m/s, mean over the span that the fluid answered last
-  std::vector<double> velocity_sum;      ///< m, integral of the velocity over the current span so far
-  double sum_time = 0;                   ///< s, of that integral
+  std::vector<double> contact_force;  ///< N, of this window
+  std::vector<double> fluid_force;    ///< N, of this window
+  std::vector<double> fluid_impulse;  ///< N s, given by the fluid and not yet handed on
+  std::vector<double> start_force;    ///< N, of the fluid at time 0; empty once the fluid's answers have come
+  std::vector<double> impedance;      ///< [nv][6] kg/s: xx, yy, zz, xy, yz, zx; resistance of the fluid to a vertex
+  std::vector<double> seen_velocity;  ///< m/s, mean over the span that the fluid answered last
+  std::vector<double> velocity_sum;   ///< m, integral of the velocity over the current span so far
+  double sum_time = 0;                ///< s, of that integral
 
   /// Mean velocity over the current span so far, [nv][3] m/s.
   std::vector<double> mean_velocity() const;

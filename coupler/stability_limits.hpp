@@ -19,10 +19,12 @@ LightestWall lightest_wall(const Conversation& conversation, const geometry::Cut
 
 /// Largest rho_f c dt / m' of a span. A free wall whose change of speed is answered at once is stable beyond 2
 /// (tests/coupler/lagged_loads_test.cpp); a thin elastic hull oscillates through its wall within a span and needs more.
-inline constexpr double lag_factor(Body body) { return body == Body::vehicle ? 0.7 : 2.0; }
+inline constexpr double lag_factor(Body body) {
+  return body == Body::vehicle ? 0.7 : 2.0;
+}
 
-/// Span over the stable step of the intact ice. The fastest motion of the ice turns by 2 / (stable step) x span; loads as
-/// old as a span and a half begin to drive it at about 1.3 (tests/coupler/lagged_loads_test.cpp).
+/// Span over the stable step of the intact ice. The fastest motion of the ice turns by 2 / (stable step) x span; loads
+/// as old as a span and a half begin to drive it at about 1.3 (tests/coupler/lagged_loads_test.cpp).
 inline constexpr double ice_share_of_step = 0.5;
 
 /// Longest span that lagged fluid loads bear, s.

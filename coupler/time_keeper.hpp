@@ -6,23 +6,23 @@ namespace polynya::coupler {
 /// Steps of the solids (windows) and of the fluid (spans of whole windows), chosen from the stable steps that the
 /// participants report, never from wall time.
 struct StepLimits {
-  double solid_stable = 0;        ///< s, smallest of the solids now
-  double solid_factor = 0.9;      ///< fraction of it that is used
-  double fluid_stable = 0;        ///< s; 0 when there is no fluid
+  double solid_stable = 0;    ///< s, smallest of the solids now
+  double solid_factor = 0.9;  ///< fraction of it that is used
+  double fluid_stable = 0;    ///< s; 0 when there is no fluid
   double fluid_factor = 1;
-  double lag_limit = 0;           ///< s, bound of the span from the fluid load's lag; 0 when there is no fluid
-  double longest_span = 0;        ///< s, bound of a span without fluid
+  double lag_limit = 0;     ///< s, bound of the span from the fluid load's lag; 0 when there is no fluid
+  double longest_span = 0;  ///< s, bound of a span without fluid
 };
 
 /// Time of the coupled run.
 struct TimeKeeper {
-  double time = 0;           ///< s, end of the last window
-  double step = 0;           ///< s, of the current window; of a free one: step of the next one that is not
-  double length = 0;         ///< s, of the current window: `step`, or longer when it is free
-  double span_start = 0;     ///< s
-  long window = 0, span = 0; ///< completed
-  long windows_left = 0;     ///< in the current span
-  long free_windows = 0;     ///< completed, in which nothing acted between the solids
+  double time = 0;            ///< s, end of the last window
+  double step = 0;            ///< s, of the current window; of a free one: step of the next one that is not
+  double length = 0;          ///< s, of the current window: `step`, or longer when it is free
+  double span_start = 0;      ///< s
+  long window = 0, span = 0;  ///< completed
+  long windows_left = 0;      ///< in the current span
+  long free_windows = 0;      ///< completed, in which nothing acted between the solids
 
   bool free() const { return length > step; }
 

@@ -196,7 +196,8 @@ class March {
 double accelerate_nodes(Fluid& fluid, double dt) {
   const std::vector<Block>& blocks = fluid.sleeping.node_blocks;
   std::vector<Energies> of_blocks(blocks.size());
-  for_blocks(blocks, [&](std::size_t number, const Block& block) { of_blocks[number] = March(fluid, dt, block).run(); });
+  for_blocks(blocks,
+             [&](std::size_t number, const Block& block) { of_blocks[number] = March(fluid, dt, block).run(); });
   Energies sum;
   for (const Energies& block : of_blocks) {
     sum.dissipated += block.dissipated;

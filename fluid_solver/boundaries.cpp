@@ -100,8 +100,7 @@ double outward_speed(const Fluid& fluid, Side side, std::ptrdiff_t cell) {
   const std::ptrdiff_t face = side.upper ? cell + fluid.grid.stride(side.axis) : cell;
   const double area = face_area(fluid.grid, side.axis, cell) * mean_open(fluid, side.axis, face);
   if (!(area > 0)) return 0;
-  return (side.upper ? 1.0 : -1.0) *
-         (fluid.face_rate[side.axis][face] / area - ambient_speed(fluid, side));
+  return (side.upper ? 1.0 : -1.0) * (fluid.face_rate[side.axis][face] / area - ambient_speed(fluid, side));
 }
 
 /// Cosine of the way out with the ray from the body's centre, over the distance from it, 1/m.
@@ -207,7 +206,8 @@ void book_boundary(Fluid& fluid, double dt, const std::vector<StepWall>& walls) 
       double at_face = fluid.predicted_pressure[ghost];
       if (wall) {  // that moves with the grid does work, of half a cell's weight too
         at_face = fluid.predicted_pressure[cell];
-        if (side.axis == 2) at_face -= outward * fluid.setup.gravity * (0.5 * width(grid, 2, cell) * fluid.density[cell]);
+        if (side.axis == 2)
+          at_face -= outward * fluid.setup.gravity * (0.5 * width(grid, 2, cell) * fluid.density[cell]);
       }
       work += dt * outward * fluid.face_rate[side.axis][face] * at_face;
     });

@@ -40,8 +40,8 @@ ShockViscosity viscosity_of(const scene::Fluid& fluid) {
 
 EquationOfState law_of(const scene::MaterialCard& card) {
   if (card.law == "mie_grueneisen") {
-    return MieGrueneisen{card.value("density"), card.value("sound_speed"), card.value("slope_1"),
-                         card.value("slope_2"), card.value("slope_3"),     card.value("grueneisen"),
+    return MieGrueneisen{card.value("density"),         card.value("sound_speed"), card.value("slope_1"),
+                         card.value("slope_2"),         card.value("slope_3"),     card.value("grueneisen"),
                          card.value("grueneisen_slope")};
   }
   if (card.law == "linear_polynomial") {
@@ -49,11 +49,14 @@ EquationOfState law_of(const scene::MaterialCard& card) {
                             card.value("c3"),      card.value("c4"), card.value("c5"), card.value("c6")};
   }
   if (card.law == "ideal_gas") return IdealGas{card.value("ratio_of_specific_heats")};
-  if (card.law == "stiffened_gas") return StiffenedGas{card.value("ratio_of_specific_heats"), card.value("stiffening_pressure")};
+  if (card.law == "stiffened_gas")
+    return StiffenedGas{card.value("ratio_of_specific_heats"), card.value("stiffening_pressure")};
   if (card.law == "tait") {
-    return Tait{card.value("density"), card.value("reference_pressure"), card.value("stiffness"), card.value("exponent")};
+    return Tait{card.value("density"), card.value("reference_pressure"), card.value("stiffness"),
+                card.value("exponent")};
   }
-  throw std::runtime_error("material " + card.name + ": the law " + card.law + " is not a fluid's; expected mie_grueneisen, "
+  throw std::runtime_error("material " + card.name + ": the law " + card.law +
+                           " is not a fluid's; expected mie_grueneisen, "
                            "linear_polynomial, ideal_gas, stiffened_gas or tait");
 }
 
@@ -88,7 +91,8 @@ Fluid make_tube(const scene::Scene& scene) {
   setup.boundary.fill(Boundary::wall);
   setup.atmospheric_pressure = 0;
   for (int m = 0; m < 2; ++m) {
-    const bool gas = std::holds_alternative<IdealGas>(setup.law[m]) || std::holds_alternative<LinearPolynomial>(setup.law[m]);
+    const bool gas =
+        std::holds_alternative<IdealGas>(setup.law[m]) || std::holds_alternative<LinearPolynomial>(setup.law[m]);
     setup.pressure_floor[m] = gas ? 0.0 : -1e300;
   }
   for (int m = 0; m < 2; ++m) check_tube_side(m == 0 ? tube.left : tube.right, setup.law[m]);

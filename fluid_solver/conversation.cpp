@@ -9,7 +9,9 @@
 namespace polynya::fluid {
 namespace {
 
-std::int64_t rows(std::size_t count) { return static_cast<std::int64_t>(count); }
+std::int64_t rows(std::size_t count) {
+  return static_cast<std::int64_t>(count);
+}
 
 exchange::Message make_ready(const Fluid& fluid) {
   exchange::Message ready("ready");
@@ -51,8 +53,8 @@ void start(const scene::Scene& scene, Fluid& fluid, const Overlap& overlap) {
     const int iterations = start_potential_flow(fluid);
     spdlog::info("potential flow: {} iterations, kinetic energy {:.6g} J", iterations, fluid.account.kinetic);
   }
-  spdlog::info("start: water {:.9g} kg, air {:.9g} kg, stable step {:.3e} s, {} groups of cut cells", fluid.account.mass[water],
-               fluid.account.mass[air], stable_step(fluid), fluid.groups.count());
+  spdlog::info("start: water {:.9g} kg, air {:.9g} kg, stable step {:.3e} s, {} groups of cut cells",
+               fluid.account.mass[water], fluid.account.mass[air], stable_step(fluid), fluid.groups.count());
 }
 
 /// A wall that moves in a fluid which cavitates meets no resistance.

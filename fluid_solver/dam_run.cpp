@@ -23,7 +23,7 @@ void run_dam(const scene::Scene& scene, Fluid& fluid, Output& output, const resu
   constexpr double rows = 1000;
   const double length = scene.fluid->dam->length, unit = std::sqrt(0.5 * length / fluid.setup.gravity);
   const double interval = scene.run.end_time / rows;
-  const std::vector<results::Column> columns{{"time", "s"},         {"front", "m"},         {"height", "m"},
+  const std::vector<results::Column> columns{{"time", "s"},       {"front", "m"},       {"height", "m"},
                                              {"time_scaled", ""}, {"front_scaled", ""}, {"height_scaled", ""}};
   Series series{{output.folder() + "/series/dam.csv", columns,
                  checkpoints.resuming() ? results::Opening::continued : results::Opening::fresh}};

@@ -26,7 +26,9 @@ inline bool is_gas(const EquationOfState& law) {
 }
 
 /// Isentropic bulk modulus rho c^2.
-inline double bulk_modulus(double rho, const Response& r) { return rho * r.by_density + r.pressure * r.by_energy / rho; }
+inline double bulk_modulus(double rho, const Response& r) {
+  return rho * r.by_density + r.pressure * r.by_energy / rho;
+}
 
 /// Specific internal energy at which the law gives this pressure; all laws here are linear in the energy. 0 where the
 /// pressure does not depend on it.

@@ -7,7 +7,9 @@
 namespace polynya::fluid {
 namespace {
 
-double sound_speed(const RiemannState& s) { return std::sqrt(s.gamma * (s.pressure + s.stiffness) / s.density); }
+double sound_speed(const RiemannState& s) {
+  return std::sqrt(s.gamma * (s.pressure + s.stiffness) / s.density);
+}
 
 /// Change of velocity across the wave that brings a side to pressure p, with its slope.
 std::array<double, 2> velocity_jump(const RiemannState& s, double p) {
@@ -18,14 +20,17 @@ std::array<double, 2> velocity_jump(const RiemannState& s, double p) {
     return {(p - s.pressure) * root, root * (1.0 - 0.5 * (p - s.pressure) / (a + B))};
   }
   const double c = sound_speed(s), power = (s.gamma - 1.0) / (2.0 * s.gamma);
-  return {2.0 * c / (s.gamma - 1.0) * (std::pow(a / b, power) - 1.0), std::pow(a / b, -(s.gamma + 1.0) / (2.0 * s.gamma)) / (s.density * c)};
+  return {2.0 * c / (s.gamma - 1.0) * (std::pow(a / b, power) - 1.0),
+          std::pow(a / b, -(s.gamma + 1.0) / (2.0 * s.gamma)) / (s.density * c)};
 }
 
 }  // namespace
 
 ExactRiemann::ExactRiemann(const RiemannState& left, const RiemannState& right) : side_{left, right} {
   const double lowest = -std::min(left.stiffness, right.stiffness);
-  const auto mismatch = [&](double p) { return velocity_jump(left, p)[0] + velocity_jump(right, p)[0] + right.velocity - left.velocity; };
+  const auto mismatch = [&](double p) {
+    return velocity_jump(left, p)[0] + velocity_jump(right, p)[0] + right.velocity - left.velocity;
+  };
   double low = lowest, high = std::max(left.pressure, right.pressure);
   while (mismatch(high) < 0) high = high > 0 ? 2 * high : 1.0;
   const double span = std::max(high - lowest, 1e-300);

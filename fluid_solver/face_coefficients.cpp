@@ -15,7 +15,8 @@ std::vector<StepWall> join_walls(const CutGeometry& before, const CutGeometry& a
     for (int body = 0; body < 2; ++body) {
       double seen = 0;
       for (int axis = 0; axis < 3; ++axis) {
-        wall.area[body][axis] = 0.5 * ((old_piece ? old_piece->area[body][axis] : 0.0) + (new_piece ? new_piece->area[body][axis] : 0.0));
+        wall.area[body][axis] =
+            0.5 * ((old_piece ? old_piece->area[body][axis] : 0.0) + (new_piece ? new_piece->area[body][axis] : 0.0));
         if (new_piece) seen += new_piece->area[body][axis] * new_piece->area[body][axis];
       }
       // A wall that has just left the cell moved with the velocity it was last seen to have.
@@ -26,8 +27,10 @@ std::vector<StepWall> join_walls(const CutGeometry& before, const CutGeometry& a
   };
   std::size_t o = 0, n = 0;
   while (o < before.walls.size() || n < after.walls.size()) {
-    const bool take_old = n == after.walls.size() || (o < before.walls.size() && before.walls[o].cell <= after.walls[n].cell);
-    const bool take_new = o == before.walls.size() || (n < after.walls.size() && after.walls[n].cell <= before.walls[o].cell);
+    const bool take_old =
+        n == after.walls.size() || (o < before.walls.size() && before.walls[o].cell <= after.walls[n].cell);
+    const bool take_new =
+        o == before.walls.size() || (n < after.walls.size() && after.walls[n].cell <= before.walls[o].cell);
     add(take_old ? &before.walls[o] : nullptr, take_new ? &after.walls[n] : nullptr);
     o += take_old;
     n += take_new;

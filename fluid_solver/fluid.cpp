@@ -11,7 +11,11 @@
 namespace polynya::fluid {
 
 Fluid::Fluid(Grid grid_in, Setup setup_in)
-    : grid(std::move(grid_in)), setup(std::move(setup_in)), before(grid, setup.boundary), after(grid, setup.boundary), motion(grid) {
+    : grid(std::move(grid_in)),
+      setup(std::move(setup_in)),
+      before(grid, setup.boundary),
+      after(grid, setup.boundary),
+      motion(grid) {
   const std::size_t size = grid.size;
   for (auto& m : material)
     for (auto* array : {&m.mass, &m.energy, &m.volume}) *array = compute::zeros_in_large_pages(size);

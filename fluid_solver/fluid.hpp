@@ -42,8 +42,8 @@ struct Setup {
   std::array<double, 3> ambient_velocity{};           ///< of the fluid beyond non-reflecting boundaries, m/s
   ShockViscosity shock_viscosity = ShockViscosity::limited;
   Sweeps sweeps = Sweeps::alternating;
-  double sleeping_threshold = 0;         ///< disturbance below which bricks of cells sleep (sleeping_look.cpp); 0: none does
-  double gravity = 0;                    ///< m/s^2 along -z
+  double sleeping_threshold = 0;  ///< disturbance below which bricks of cells sleep (sleeping_look.cpp); 0: none does
+  double gravity = 0;             ///< m/s^2 along -z
   double atmospheric_pressure = 101325;  ///< Pa, what gauge pressures are counted from
 };
 
@@ -114,8 +114,8 @@ struct Fluid {
   std::vector<double> density;                                     ///< of the mixture, per free volume, kg/m^3
   std::vector<double> bulk_modulus;                                ///< of the mixture, 0 where water cavitates, Pa
   std::vector<double> sound_speed;                                 ///< the largest of the materials present, m/s
-  std::vector<double> total_mass;                                  ///< of both materials, kg; only in rows that hold both or
-                                                                   ///< that solids touch
+  std::vector<double> total_mass;  ///< of both materials, kg; only in rows that hold both or
+                                   ///< that solids touch
   // Working space of a step.
   std::array<std::vector<double>, 3> face_coefficient;  ///< open area over the sum of node fractions of the face
   std::array<std::vector<double>, 3> face_rate;         ///< volume per time through lower faces, m^3/s
@@ -125,7 +125,7 @@ struct Fluid {
   std::vector<double> open_quarter, quarter_width;  ///< a quarter where the x-face is open; of dx, 0 in ghosts
   std::vector<double> whole_nodes;                  ///< fractions of nodes from i = -1 on: 1, in ghosts 0
   std::vector<double> node_fraction, node_mass;
-  std::vector<double> kinetic_loss;  ///< of whole nodes by mixing in the remap, beside gas, J/kg
+  std::vector<double> kinetic_loss;   ///< of whole nodes by mixing in the remap, beside gas, J/kg
   std::vector<double> volume_change;  ///< of cells by what is not flow through faces, m^3
   std::vector<double> viscosity;      ///< hourglass coefficient of cells, kg/s
   std::vector<double> rate;           ///< of volume in rows that solids touch, m^3/s
@@ -152,10 +152,10 @@ struct Fluid {
 
   /// Between steps. Left out: what the scene makes, and what a step writes before it reads it
   /// (tests/fluid_solver/test_checkpoint.cpp spoils it).
-  POLYNYA_STATE_WITHOUT((setup, watch, face_rate, next_velocity),
-                        grid, setup, before, after, groups, group_states, own_compression, material, velocity, motion,
-                        ambient, beyond, far_field, start_damping, largest_density, account, sleeping, watch, time, steps, correction_iterations,
-                        pressure, predicted_pressure, wall_impulse, density, bulk_modulus, sound_speed, total_mass,
+  POLYNYA_STATE_WITHOUT((setup, watch, face_rate, next_velocity), grid, setup, before, after, groups, group_states,
+                        own_compression, material, velocity, motion, ambient, beyond, far_field, start_damping,
+                        largest_density, account, sleeping, watch, time, steps, correction_iterations, pressure,
+                        predicted_pressure, wall_impulse, density, bulk_modulus, sound_speed, total_mass,
                         face_coefficient, face_rate, face_mass, next_velocity, open_quarter, quarter_width, whole_nodes,
                         node_fraction, node_mass, kinetic_loss, volume_change, viscosity, rate, donor, held_cells, held,
                         row_held, sweep_volume, outflow, cut_rows, row_materials, label)

@@ -12,7 +12,8 @@ std::vector<double> widths(const std::vector<double>& line, const char* axis) {
   std::vector<double> width(cells + 3);
   for (std::size_t i = 0; i < cells; ++i) {
     width[i + 1] = line[i + 1] - line[i];
-    if (!(width[i + 1] > 0)) throw std::invalid_argument(std::string("the grid lines along ") + axis + " must increase");
+    if (!(width[i + 1] > 0))
+      throw std::invalid_argument(std::string("the grid lines along ") + axis + " must increase");
   }
   width[0] = width[1];
   width[cells + 1] = width[cells + 2] = width[cells];
@@ -42,9 +43,11 @@ Grid::Grid(std::vector<double> x_lines, std::vector<double> y_lines, std::vector
 
 std::ptrdiff_t Grid::from_message(std::int64_t cell) const {
   const std::int64_t plane = static_cast<std::int64_t>(nx) * ny;
-  if (cell < 0 || cell >= plane * nz) throw std::out_of_range("cell " + std::to_string(cell) + " is not in the fluid grid");
+  if (cell < 0 || cell >= plane * nz)
+    throw std::out_of_range("cell " + std::to_string(cell) + " is not in the fluid grid");
   const std::int64_t in_plane = cell % plane;
-  return at(1 + static_cast<int>(in_plane % nx), 1 + static_cast<int>(in_plane / nx), 1 + static_cast<int>(cell / plane));
+  return at(1 + static_cast<int>(in_plane % nx), 1 + static_cast<int>(in_plane / nx),
+            1 + static_cast<int>(cell / plane));
 }
 
 std::int64_t Grid::to_message(std::ptrdiff_t cell) const {
@@ -55,9 +58,11 @@ std::int64_t Grid::to_message(std::ptrdiff_t cell) const {
 
 std::ptrdiff_t Grid::face_from_message(int normal, std::int64_t face) const {
   const std::int64_t fx = nx + (normal == 0), fy = ny + (normal == 1), fz = nz + (normal == 2);
-  if (face < 0 || face >= fx * fy * fz) throw std::out_of_range("face " + std::to_string(face) + " is not in the fluid grid");
+  if (face < 0 || face >= fx * fy * fz)
+    throw std::out_of_range("face " + std::to_string(face) + " is not in the fluid grid");
   const std::int64_t in_plane = face % (fx * fy);
-  return at(1 + static_cast<int>(in_plane % fx), 1 + static_cast<int>(in_plane / fx), 1 + static_cast<int>(face / (fx * fy)));
+  return at(1 + static_cast<int>(in_plane % fx), 1 + static_cast<int>(in_plane / fx),
+            1 + static_cast<int>(face / (fx * fy)));
 }
 
 }  // namespace polynya::fluid

@@ -14,11 +14,11 @@ namespace polynya::fluid {
 /// the same index. Indices 0 and n+1 (cells) are ghosts; nodes run from 1 to n+1 with ghosts 0 and n+2.
 struct Grid {
   int nx = 0, ny = 0, nz = 0;
-  std::vector<double> x, y, z;     ///< node coordinates, n+1 each, m
-  std::vector<double> dx, dy, dz;  ///< widths by padded index (n+3; ghosts repeat their neighbour)
-  std::ptrdiff_t sy = 0, sz = 0;   ///< strides of j and k
-  std::size_t size = 0;            ///< entries of every array
-  std::vector<double> cell_volume; ///< by padded index, m^3; 0 for what is no cell of the grid
+  std::vector<double> x, y, z;      ///< node coordinates, n+1 each, m
+  std::vector<double> dx, dy, dz;   ///< widths by padded index (n+3; ghosts repeat their neighbour)
+  std::ptrdiff_t sy = 0, sz = 0;    ///< strides of j and k
+  std::size_t size = 0;             ///< entries of every array
+  std::vector<double> cell_volume;  ///< by padded index, m^3; 0 for what is no cell of the grid
 
   POLYNYA_STATE(nx, ny, nz, x, y, z, dx, dy, dz, sy, sz, size, cell_volume)
 
@@ -51,7 +51,8 @@ struct Grid {
 /// Runs body(j, k) for rows 1..ny+extra, 1..nz+extra, in fixed chunks shared among the threads.
 template <class Body>
 void for_rows(const Grid& grid, int extra, Body&& body) {
-  const std::size_t rows_y = static_cast<std::size_t>(grid.ny + extra), rows_z = static_cast<std::size_t>(grid.nz + extra);
+  const std::size_t rows_y = static_cast<std::size_t>(grid.ny + extra),
+                    rows_z = static_cast<std::size_t>(grid.nz + extra);
   compute::for_uneven_chunks(rows_y * rows_z, 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       body(1 + static_cast<int>(row % rows_y), 1 + static_cast<int>(row / rows_y));
@@ -60,18 +61,23 @@ void for_rows(const Grid& grid, int extra, Body&& body) {
 }
 
 /// How many planes of this many entries a thread should take at once: threads are not worth waking for less.
-inline std::size_t planes_per_chunk(std::ptrdiff_t entries) { return 1 + static_cast<std::size_t>(2048 / (entries + 1)); }
+inline std::size_t planes_per_chunk(std::ptrdiff_t entries) {
+  return 1 + static_cast<std::size_t>(2048 / (entries + 1));
+}
 
-/// Several sums over rows at once: term(j, k) returns an array. Added in the order of the rows whatever the number of threads.
+/// Several sums over rows at once: term(j, k) returns an array. Added in the order of the rows whatever the number of
+/// threads.
 template <std::size_t count, class Term>
 std::array<double, count> row_sums(const Grid& grid, int extra, Term&& term) {
-  const std::size_t rows_y = static_cast<std::size_t>(grid.ny + extra), rows = rows_y * static_cast<std::size_t>(grid.nz + extra);
+  const std::size_t rows_y = static_cast<std::size_t>(grid.ny + extra),
+                    rows = rows_y * static_cast<std::size_t>(grid.nz + extra);
   constexpr std::size_t chunk = 16;
   std::vector<std::array<double, count>> partial((rows + chunk - 1) / chunk);
   compute::for_uneven_chunks(rows, chunk, [&](std::size_t begin, std::size_t end) {
     std::array<double, count> sum{};
     for (std::size_t row = begin; row < end; ++row) {
-      const std::array<double, count> own = term(1 + static_cast<int>(row % rows_y), 1 + static_cast<int>(row / rows_y));
+      const std::array<double, count> own =
+          term(1 + static_cast<int>(row % rows_y), 1 + static_cast<int>(row / rows_y));
       for (std::size_t s = 0; s < count; ++s) sum[s] += own[s];
     }
     partial[begin / chunk] = sum;

@@ -41,8 +41,8 @@ struct GridMotion {
   std::array<std::vector<double>, 3> shift, speed;      ///< of planes, m and m/s
   std::array<std::vector<double>, 3> next_width;        ///< like Grid::dx, at its end, m
 
-  POLYNYA_STATE_WITHOUT((prescribed), prescribed, first_line, first_width, displaced, first_ambient, next_displaced, shift,
-                        speed, next_width)
+  POLYNYA_STATE_WITHOUT((prescribed), prescribed, first_line, first_width, displaced, first_ambient, next_displaced,
+                        shift, speed, next_width)
 
   explicit GridMotion(const Grid& grid);
   bool active() const { return prescribed[0].moves() || prescribed[1].moves() || prescribed[2].moves(); }

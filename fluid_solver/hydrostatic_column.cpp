@@ -1,5 +1,5 @@
-// A column of water with air above, balanced by the same formula that accelerates the nodes: the pressures of two layers
-// differ by gravity times half of each layer's mass per area.
+// A column of water with air above, balanced by the same formula that accelerates the nodes: the pressures of two
+// layers differ by gravity times half of each layer's mass per area.
 #include <algorithm>
 #include <cmath>
 
@@ -17,8 +17,10 @@ struct Layer {
 double air_energy(const EquationOfState& law, double pressure) {
   const double reference = std::visit(
       [](const auto& each) {
-        if constexpr (requires { each.density; }) return each.density;
-        else return 1.2;
+        if constexpr (requires { each.density; })
+          return each.density;
+        else
+          return 1.2;
       },
       law);
   return energy_at(law, reference, pressure);

@@ -80,8 +80,9 @@ void mean_face_rates(Fluid& fluid) {
     const auto before = row_of(std::as_const(fluid.velocity), row),
                after = row_of(std::as_const(fluid.next_velocity), row);
     const std::array<Sum, 3> velocity{Sum{before[0], after[0]}, Sum{before[1], after[1]}, Sum{before[2], after[2]}};
-    with_row(fluid, j, k,
-             [&](auto at) { row_rates(at, grid, velocity, 0.5, faces.first, faces.last, row_of(fluid.face_rate, row)); });
+    with_row(fluid, j, k, [&](auto at) {
+      row_rates(at, grid, velocity, 0.5, faces.first, faces.last, row_of(fluid.face_rate, row));
+    });
     for (int axis = 0; axis < 3; ++axis) set_wall_flow(fluid, axis, j, k, fluid.face_rate[axis].data() + row);
   });
 }

@@ -50,7 +50,8 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
 }
 
 void start_log(const Options& options) {
-  auto logger = spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", options.resume.empty());
+  auto logger =
+      spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", options.resume.empty());
   logger->flush_on(spdlog::level::info);
   spdlog::set_default_logger(logger);
 }

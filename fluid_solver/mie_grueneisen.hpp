@@ -12,9 +12,9 @@ struct Response {
 /// Mie-Grueneisen equation of state of water: a shock Hugoniot in compression, linear in expansion.
 /// Pressure is linear in the specific internal energy, which is 0 at the reference density and zero pressure.
 struct MieGrueneisen {
-  double density = 1000, sound_speed = 1480;  ///< reference density, kg/m^3; m/s
-  double s1 = 2.56, s2 = -1.986, s3 = 0.2268; ///< shock slope coefficients
-  double gamma0 = 0.5, a = 0;                 ///< Grueneisen coefficient and its volume correction
+  double density = 1000, sound_speed = 1480;   ///< reference density, kg/m^3; m/s
+  double s1 = 2.56, s2 = -1.986, s3 = 0.2268;  ///< shock slope coefficients
+  double gamma0 = 0.5, a = 0;                  ///< Grueneisen coefficient and its volume correction
 
   Response operator()(double rho, double e) const {
     const double mu = rho / density - 1.0, up = std::max(mu, 0.0), down = std::min(mu, 0.0);

@@ -321,8 +321,7 @@ void remap_momentum(Fluid& fluid) {
   std::vector<PassingNode> passing = passing_nodes(fluid);
   iterate_donors(fluid, passing);
   const int gases = gases_of(fluid.setup);
-  for_blocks(fluid.sleeping.touched_blocks,
-             [&](std::size_t, const Block& block) { March(fluid, gases, block).run(); });
+  for_blocks(fluid.sleeping.touched_blocks, [&](std::size_t, const Block& block) { March(fluid, gases, block).run(); });
   hold_sleeping_nodes(fluid);
   // The rows above took the donor velocity of passing nodes for their own.
   for (const PassingNode& p : passing) {

@@ -33,15 +33,18 @@ std::string sleeping_report(const Fluid& fluid) {
   std::ostringstream text;
   text.precision(3);
   text << 100 * fluid.sleeping.share_awake() << " % of the cells were stepped; disturbances below "
-       << fluid.setup.sleeping_threshold << " of sound speed and bulk modulus were dropped: " << fluid.account.put_to_rest
-       << " J and " << std::hypot(impulse[0], impulse[1], impulse[2]) << " N s in all";
+       << fluid.setup.sleeping_threshold
+       << " of sound speed and bulk modulus were dropped: " << fluid.account.put_to_rest << " J and "
+       << std::hypot(impulse[0], impulse[1], impulse[2]) << " N s in all";
   return text.str();
 }
 
 /// Volume of the modelled part of the vehicle taken as a cylinder: a scale for what should not be inside.
 double vehicle_volume(const scene::Scene& scene) {
   if (!scene.vehicle) return 0;
-  const double part = scene.symmetry == scene::Symmetry::quarter ? 0.25 : scene.symmetry == scene::Symmetry::half ? 0.5 : 1.0;
+  const double part = scene.symmetry == scene::Symmetry::quarter ? 0.25
+                      : scene.symmetry == scene::Symmetry::half  ? 0.5
+                                                                 : 1.0;
   return part * std::numbers::pi / 4 * scene.vehicle->diameter * scene.vehicle->diameter * scene.vehicle->length;
 }
 
@@ -58,7 +61,8 @@ results::UnstructuredFields make_cells(const Grid& grid) {
     for (int j = 0; j < grid.ny; ++j) {
       for (int i = 0; i < grid.nx; ++i) {
         const std::int64_t n = i + nx * j + plane * k;
-        const std::int64_t corners[8] = {n, n + 1, n + nx + 1, n + nx, n + plane, n + plane + 1, n + plane + nx + 1, n + plane + nx};
+        const std::int64_t corners[8] = {n,         n + 1,         n + nx + 1,         n + nx,
+                                         n + plane, n + plane + 1, n + plane + nx + 1, n + plane + nx};
         cells.add_cell(results::CellType::hexahedron, corners);
       }
     }
@@ -70,7 +74,8 @@ results::UnstructuredFields make_cells(const Grid& grid) {
 void add_fields(const Fluid& fluid, results::UnstructuredFields& cells) {
   const Grid& grid = fluid.grid;
   const std::size_t count = grid.cells();
-  results::FieldArray pressure{"pressure", 1, std::vector<double>(count)}, water_part{"water_fraction", 1, std::vector<double>(count)},
+  results::FieldArray pressure{"pressure", 1, std::vector<double>(count)},
+      water_part{"water_fraction", 1, std::vector<double>(count)},
       solid{"solid_fraction", 1, std::vector<double>(count)}, density{"density", 1, std::vector<double>(count)},
       velocity{"velocity", 3, std::vector<double>(3 * count)};
   const std::vector<double>& absolute = fluid.steps > 0 ? fluid.predicted_pressure : fluid.pressure;
@@ -95,7 +100,8 @@ void add_fields(const Fluid& fluid, results::UnstructuredFields& cells) {
       }
     }
   }
-  cells.cell_fields = {std::move(pressure), std::move(water_part), std::move(solid), std::move(density), std::move(velocity)};
+  cells.cell_fields = {std::move(pressure), std::move(water_part), std::move(solid), std::move(density),
+                       std::move(velocity)};
 }
 
 }  // namespace

@@ -51,7 +51,8 @@ class Output {
   double row_interval_, next_row_ = 0, step_ = 0, smallest_step_ = 1e300, last_row_ = -1;
   double vehicle_volume_ = 0;
   Account first_;
-  results::UnstructuredFields cells_;  ///< points and cells, the same in every frame of a grid at rest; fields of the last good state
+  results::UnstructuredFields
+      cells_;  ///< points and cells, the same in every frame of a grid at rest; fields of the last good state
   double good_time_ = -1, frame_time_ = -1;  ///< of these fields, of the last frame; -1: none
 };
 

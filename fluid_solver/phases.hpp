@@ -23,7 +23,8 @@ void update_face_coefficients(Fluid& fluid);
 
 /// release.cpp: where a solid breaks away, its room is free at once. The fluid expands into it without work (it meets
 /// nothing that it could push), so the room counts as free from the beginning of the step. Returns it, m^3.
-double release_room(const Grid& grid, CutGeometry& before, const CutGeometry& after, const std::vector<StepWall>& walls, double dt);
+double release_room(const Grid& grid, CutGeometry& before, const CutGeometry& after, const std::vector<StepWall>& walls,
+                    double dt);
 
 /// Adds the correction's volumes to the change of volume that cells feel, and later to what flows through faces.
 void apply_to_cells(Fluid& fluid, const VolumeCorrection& correction);
@@ -55,7 +56,8 @@ double linear_viscosity(const Fluid& fluid);
 double accelerate_nodes(Fluid& fluid, double dt);
 
 /// lagrange_step.cpp
-void face_rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity, std::array<std::vector<double>, 3>& rate);
+void face_rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& velocity,
+                std::array<std::vector<double>, 3>& rate);
 /// The same for the faces of the outer boundary alone, at the velocities of the beginning of the step.
 void boundary_face_rates(Fluid& fluid);
 void work_and_volumes(Fluid& fluid, double dt);

@@ -10,7 +10,8 @@ struct Side {
   double pressure, slope, bulk;  ///< slope: of the pressure with the material's own volume
 };
 
-Side side(const EquationOfState& law, double floor, double mass, double energy, double volume, double exchange_pressure) {
+Side side(const EquationOfState& law, double floor, double mass, double energy, double volume,
+          double exchange_pressure) {
   const double rho = mass / volume;
   const Response r = respond(law, rho, energy / mass);
   if (r.pressure <= floor) return {floor, 0.0, 0.0};
@@ -65,7 +66,8 @@ PointState point_state(const EquationOfState& law, double floor, double mass, do
   return {std::max(r.pressure, floor), r.pressure > floor ? bulk : 0.0, std::sqrt(bulk / rho)};
 }
 
-PointState equilibrate(const std::array<EquationOfState, 2>& law, const std::array<double, 2>& floor, Mixture& mixture) {
+PointState equilibrate(const std::array<EquationOfState, 2>& law, const std::array<double, 2>& floor,
+                       Mixture& mixture) {
   const double total = mixture.volume[0] + mixture.volume[1];
   // A trace that arrived without volume starts from a volume far too small rather than from none.
   for (int m = 0; m < 2; ++m) {
@@ -92,7 +94,9 @@ PointState equilibrate(const std::array<EquationOfState, 2>& law, const std::arr
     if (high - low <= 4e-16 * high) break;
     const double slope = small.slope + large.slope;
     double next = slope < 0 ? x - excess / slope : -1.0;
-    if (!(next > low && next < high)) next = low > 0 || high < total ? 0.5 * (low + high) : (excess > 0 ? std::min(2 * x, 0.5 * (x + total)) : 0.25 * x);
+    if (!(next > low && next < high))
+      next =
+          low > 0 || high < total ? 0.5 * (low + high) : (excess > 0 ? std::min(2 * x, 0.5 * (x + total)) : 0.25 * x);
     x = next;
   }
   PointState state;
@@ -110,10 +114,12 @@ PointState equilibrate(const std::array<EquationOfState, 2>& law, const std::arr
   return state;
 }
 
-PointState settle(const std::array<EquationOfState, 2>& law, const std::array<double, 2>& floor, double volume, Mixture& mixture) {
+PointState settle(const std::array<EquationOfState, 2>& law, const std::array<double, 2>& floor, double volume,
+                  Mixture& mixture) {
   const double held = mixture.volume[0] + mixture.volume[1];
   std::array<bool, 2> active{};
-  for (int m = 0; m < 2; ++m) active[m] = mixture.mass[m] > void_density * volume && mixture.volume[m] > dormant_fraction * held;
+  for (int m = 0; m < 2; ++m)
+    active[m] = mixture.mass[m] > void_density * volume && mixture.volume[m] > dormant_fraction * held;
   if (active[0] && active[1]) {
     for (double& own : mixture.volume) own *= volume / held;
     return equilibrate(law, floor, mixture);

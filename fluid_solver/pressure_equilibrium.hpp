@@ -26,7 +26,8 @@ PointState equilibrate(const std::array<EquationOfState, 2>& law, const std::arr
 
 /// The state of a volume with one or two materials: dormant traces are set aside, the rest comes to equilibrium. The
 /// volumes are made to fill `volume`.
-PointState settle(const std::array<EquationOfState, 2>& law, const std::array<double, 2>& floor, double volume, Mixture& mixture);
+PointState settle(const std::array<EquationOfState, 2>& law, const std::array<double, 2>& floor, double volume,
+                  Mixture& mixture);
 
 /// How the two materials share a change of the common volume: by their compliances, so that their pressures stay
 /// together; by their fractions when the change is large or neither resists.
@@ -36,8 +37,8 @@ std::array<double, 2> volume_shares(const std::array<EquationOfState, 2>& law, c
 /// Below this fraction of the volume a material is carried along but takes no part in the pressure.
 inline constexpr double dormant_fraction = 1e-9;
 
-/// Fluid thinner than this is a void: traces left by rounding, whose energy per mass tells nothing. Vapour fills it: its pressure is
-/// the lower bound of water's. kg/m^3
+/// Fluid thinner than this is a void: traces left by rounding, whose energy per mass tells nothing. Vapour fills it:
+/// its pressure is the lower bound of water's. kg/m^3
 inline constexpr double void_density = 1e-6;
 
 }  // namespace polynya::fluid

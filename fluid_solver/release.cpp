@@ -6,7 +6,8 @@
 
 namespace polynya::fluid {
 
-double release_room(const Grid& grid, CutGeometry& before, const CutGeometry& after, const std::vector<StepWall>& walls, double dt) {
+double release_room(const Grid& grid, CutGeometry& before, const CutGeometry& after, const std::vector<StepWall>& walls,
+                    double dt) {
   // Walls that move leave a miss of the order of the distance they move over the size of a cell, a percent or so.
   constexpr double least_fraction = 0.05;
   const auto jump = [&](const StepWall& wall) {

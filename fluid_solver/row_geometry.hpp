@@ -12,7 +12,8 @@ inline bool untouched(const Fluid& fluid, int j, int k) {
   return fluid.cut_rows[static_cast<std::size_t>(j + (fluid.grid.ny + 3) * k)] == 0;
 }
 
-/// What of a row is stepped (see Sleeping): cells, nodes that move, nodes and faces of awake cells; cells that are read.
+/// What of a row is stepped (see Sleeping): cells, nodes that move, nodes and faces of awake cells; cells that are
+/// read.
 inline Span awake_cells(const Fluid& fluid, int j, int k) {
   return fluid.sleeping.cells[static_cast<std::size_t>(j + (fluid.grid.ny + 3) * k)];
 }

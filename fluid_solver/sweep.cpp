@@ -90,8 +90,8 @@ class Pencil {
     const auto slope_of = [part](int i) { return Slopes{part[i - 1], part[i]}; };
     for (int m = 0; m < 2; ++m) {
       if (!(row.materials >> m & 1)) continue;
-      carry_material(row.general, faces.first, faces.last, face, m, row.inverse - 1, row.inverse, line(row.seen_mass[m]),
-                     line(row.seen_energy[m]), line(row.seen_plain[m]), slope_of);
+      carry_material(row.general, faces.first, faces.last, face, m, row.inverse - 1, row.inverse,
+                     line(row.seen_mass[m]), line(row.seen_energy[m]), line(row.seen_plain[m]), slope_of);
       if (row.general) {
         for (int i = faces.first; i <= faces.last; ++i)
           face.volume[m][i] = face.swept[i] * (face.swept[i] > 0 ? row.fraction[m][i - 1] : row.fraction[m][i]);
@@ -164,7 +164,8 @@ class Pencil {
     row.general = ghost || row.materials == 3 || fluid_.row_held[number] != 0;
     const Span cells = ghost ? Span{1, n} : near_cells(fluid_, j, k);
     const double* volume = fluid_.sweep_volume.data() + at;
-    for (int i = cells.first; i <= cells.last; ++i) row.inverse[i] = volume[i] > 0 ? 1.0 / (volume[i] > 0 ? volume[i] : 1.0) : 0.0;
+    for (int i = cells.first; i <= cells.last; ++i)
+      row.inverse[i] = volume[i] > 0 ? 1.0 / (volume[i] > 0 ? volume[i] : 1.0) : 0.0;
     for (int m = 0; m < 2; ++m) {
       double *mass = row.mass[m], *energy = row.energy[m], *fraction = row.fraction[m], *plain = row.plain[m];
       row.seen_mass[m] = mass;
@@ -251,7 +252,8 @@ class Pencil {
     const int n = axis_ == 0 ? grid_.nx : axis_ == 1 ? grid_.ny : grid_.nz, r = axis_ == 0 ? 0 : axis_ == 1 ? j : k;
     if (axis_ == 0) {
       if (faces.first == 1) book(face, materials, 0, 1, (j - 1) + static_cast<std::size_t>(grid_.ny) * (k - 1), -1.0);
-      if (faces.last == n + 1) book(face, materials, 1, n + 1, (j - 1) + static_cast<std::size_t>(grid_.ny) * (k - 1), 1.0);
+      if (faces.last == n + 1)
+        book(face, materials, 1, n + 1, (j - 1) + static_cast<std::size_t>(grid_.ny) * (k - 1), 1.0);
     } else if (r == 1 || r == n + 1) {
       const int row = axis_ == 1 ? k : j;
       for (int i = faces.first; i <= faces.last; ++i) {
@@ -270,7 +272,8 @@ class Pencil {
   }
 
   /// Adds to a row of cells what came through its lower faces less what left through its upper ones (shifted along x).
-  void update(const CellRow& row, std::ptrdiff_t at, Span cells, const FaceRow& lower, const FaceRow& upper, int shift) {
+  void update(const CellRow& row, std::ptrdiff_t at, Span cells, const FaceRow& lower, const FaceRow& upper,
+              int shift) {
     const auto add = [&](double* __restrict out, const double* in, const double* gone) {
       for (int i = cells.first; i <= cells.last; ++i) out[i] += in[i] - gone[i + shift];
     };
@@ -315,7 +318,8 @@ std::vector<char> clear_layers(const Fluid& fluid) {
   const Grid& grid = fluid.grid;
   std::vector<char> clear(static_cast<std::size_t>(grid.nz) + 1, 1);
   for (int k = 1; k <= grid.nz; ++k) {
-    for (int j = 1; j <= grid.ny && clear[k] && fluid.sleeping.layers[k]; ++j) clear[k] = materials_around(fluid, j, k) != 3;
+    for (int j = 1; j <= grid.ny && clear[k] && fluid.sleeping.layers[k]; ++j)
+      clear[k] = materials_around(fluid, j, k) != 3;
   }
   return clear;
 }

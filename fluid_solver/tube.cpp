@@ -16,7 +16,8 @@ std::optional<std::pair<double, double>> gas_of(const EquationOfState& law) {
   if (const auto* gas = std::get_if<IdealGas>(&law)) return {{gas->gamma, 0.0}};
   if (const auto* gas = std::get_if<StiffenedGas>(&law)) return {{gas->gamma, gas->stiffness}};
   if (const auto* gas = std::get_if<LinearPolynomial>(&law)) {
-    const bool ideal = gas->c0 == 0 && gas->c1 == 0 && gas->c2 == 0 && gas->c3 == 0 && gas->c6 == 0 && gas->c4 == gas->c5;
+    const bool ideal =
+        gas->c0 == 0 && gas->c1 == 0 && gas->c2 == 0 && gas->c3 == 0 && gas->c6 == 0 && gas->c4 == gas->c5;
     if (ideal) return {{1.0 + gas->c4, 0.0}};
   }
   return {};
@@ -33,7 +34,9 @@ double write_profile(const scene::Tube& tube, const Fluid& fluid, const std::str
   const auto exact = exact_solution(tube, fluid.setup);
   std::vector<results::Column> columns{{"x", "m"}, {"density", "kg/m^3"}, {"velocity", "m/s"}, {"pressure", "Pa"}};
   if (exact) {
-    for (const auto& [name, unit] : {std::pair{"density_exact", "kg/m^3"}, {"velocity_exact", "m/s"}, {"pressure_exact", "Pa"}}) columns.push_back({name, unit});
+    for (const auto& [name, unit] :
+         {std::pair{"density_exact", "kg/m^3"}, {"velocity_exact", "m/s"}, {"pressure_exact", "Pa"}})
+      columns.push_back({name, unit});
   }
   results::TimeSeries series(path, columns);
   const Grid& grid = fluid.grid;
@@ -41,7 +44,8 @@ double write_profile(const scene::Tube& tube, const Fluid& fluid, const std::str
   for (int i = 1; i <= grid.nx; ++i) {
     const std::ptrdiff_t c = grid.at(i, 1, 1);
     const double density = (fluid.material[0].mass[c] + fluid.material[1].mass[c]) / fluid.after.volume[c];
-    std::vector<double> row{grid.centre_x(i), density, 0.5 * (fluid.velocity[0][c] + fluid.velocity[0][c + 1]), fluid.pressure[c]};
+    std::vector<double> row{grid.centre_x(i), density, 0.5 * (fluid.velocity[0][c] + fluid.velocity[0][c + 1]),
+                            fluid.pressure[c]};
     if (exact) {
       const auto s = exact->sample((grid.centre_x(i) - tube.diaphragm) / fluid.time);
       row.insert(row.end(), {s.density, s.velocity, s.pressure});

@@ -5,7 +5,9 @@
 namespace polynya::ice {
 namespace {
 
-double sum_of(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+double sum_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 }  // namespace
 
@@ -34,19 +36,50 @@ Account account_of(const IceBody& ice) {
 }
 
 const std::vector<std::string>& account_names() {
-  static const std::vector<std::string> names{
-      "kinetic",       "internal",     "hourglass",   "viscous",    "conversion_heat",
-      "boundary_flux", "external_work", "gravity_work", "step_change", "momentum_x",        "momentum_y",
-      "momentum_z",    "boundary_impulse_x", "boundary_impulse_y", "boundary_impulse_z", "gravity_impulse_z", "mass", "broken_mass",
-      "converted_elements", "particles"};
+  static const std::vector<std::string> names{"kinetic",
+                                              "internal",
+                                              "hourglass",
+                                              "viscous",
+                                              "conversion_heat",
+                                              "boundary_flux",
+                                              "external_work",
+                                              "gravity_work",
+                                              "step_change",
+                                              "momentum_x",
+                                              "momentum_y",
+                                              "momentum_z",
+                                              "boundary_impulse_x",
+                                              "boundary_impulse_y",
+                                              "boundary_impulse_z",
+                                              "gravity_impulse_z",
+                                              "mass",
+                                              "broken_mass",
+                                              "converted_elements",
+                                              "particles"};
   return names;
 }
 
 std::vector<double> account_values(const Account& a) {
-  return {a.kinetic,       a.internal,      a.hourglass,    a.viscous,      a.conversion_heat,
-          a.boundary_flux, a.external_work, a.gravity_work, a.step_change,  a.momentum[0],        a.momentum[1],
-          a.momentum[2],   a.boundary_impulse[0], a.boundary_impulse[1], a.boundary_impulse[2], a.gravity_impulse, a.mass, a.broken_mass,
-          a.converted_elements, a.particles};
+  return {a.kinetic,
+          a.internal,
+          a.hourglass,
+          a.viscous,
+          a.conversion_heat,
+          a.boundary_flux,
+          a.external_work,
+          a.gravity_work,
+          a.step_change,
+          a.momentum[0],
+          a.momentum[1],
+          a.momentum[2],
+          a.boundary_impulse[0],
+          a.boundary_impulse[1],
+          a.boundary_impulse[2],
+          a.gravity_impulse,
+          a.mass,
+          a.broken_mass,
+          a.converted_elements,
+          a.particles};
 }
 
 }  // namespace polynya::ice

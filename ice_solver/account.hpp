@@ -11,16 +11,18 @@ namespace polynya::ice {
 ///     - external_work - gravity_work - step_change
 struct Account {
   double kinetic = 0;
-  double internal = 0;          ///< work of the stress in elements and particles, and what springs of the ice's own contact hold
+  double internal =
+      0;  ///< work of the stress in elements and particles, and what springs of the ice's own contact hold
   double hourglass = 0;
-  double viscous = 0;           ///< bulk viscosity of elements, artificial viscosity of particles, losses of the ice's own contact
-  double conversion_heat = 0;   ///< motion within elements that became particles
-  double boundary_flux = 0;     ///< out through non-reflecting sides
-  double external_work = 0;     ///< done by loads and by what holds prescribed nodes
+  double viscous =
+      0;  ///< bulk viscosity of elements, artificial viscosity of particles, losses of the ice's own contact
+  double conversion_heat = 0;  ///< motion within elements that became particles
+  double boundary_flux = 0;    ///< out through non-reflecting sides
+  double external_work = 0;    ///< done by loads and by what holds prescribed nodes
   double gravity_work = 0;
-  double step_change = 0;       ///< see continuum::EnergyAccount
+  double step_change = 0;                                ///< see continuum::EnergyAccount
   std::array<double, 3> momentum{}, boundary_impulse{};  ///< N s, at t(n+1/2)
-  double gravity_impulse = 0;   ///< N s, along z, at t(n+1/2)
+  double gravity_impulse = 0;                            ///< N s, along z, at t(n+1/2)
   double mass = 0, broken_mass = 0;                      ///< kg
   double converted_elements = 0, particles = 0;
 

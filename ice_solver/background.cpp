@@ -77,7 +77,9 @@ std::array<double, 3> reference_centre(const continuum::ExplicitSolid& solid, st
   return centre;
 }
 
-double smoothing_length_of(double volume) { return 1.2 * std::cbrt(volume); }
+double smoothing_length_of(double volume) {
+  return 1.2 * std::cbrt(volume);
+}
 
 void select_background(Background& background, const continuum::ExplicitSolid& solid, const Points& particles,
                        double reach, double largest_smoothing_length) {
@@ -111,7 +113,8 @@ void select_background(Background& background, const continuum::ExplicitSolid& s
     const std::array<double, 3> origin = reference_centre(solid, e);
     std::copy(origin.begin(), origin.end(), points.origin.begin() + static_cast<std::ptrdiff_t>(3 * k));
     points.bond_reach[k] = smoothing_length_of(solid.element.reference_volume[e]);
-    points.smoothing_length[k] = std::min(smoothing_length_of(solid.element.reference_volume[e]), largest_smoothing_length);
+    points.smoothing_length[k] =
+        std::min(smoothing_length_of(solid.element.reference_volume[e]), largest_smoothing_length);
   }
   refresh_background(background, solid);
 }

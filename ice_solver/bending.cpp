@@ -25,8 +25,8 @@ void add_line(std::vector<std::int32_t>& nodes, const IceBody& beam, double x, d
 std::vector<std::int32_t> lines_at(IceBody& beam, double span, double z, double& found_span) {
   const auto& x = beam.options.x;
   if (!(span > 0) || 0.5 * span > x.back() + 1e-9)
-    throw std::invalid_argument("ice.bending: a span of " + std::to_string(span) + " m does not fit a beam that ends at x = " +
-                                std::to_string(x.back()) + " m");
+    throw std::invalid_argument("ice.bending: a span of " + std::to_string(span) +
+                                " m does not fit a beam that ends at x = " + std::to_string(x.back()) + " m");
   std::vector<std::int32_t> nodes;
   const double right = nearest(x, 0.5 * span);
   found_span = 2 * right;

@@ -13,7 +13,7 @@ struct BendingRig {
   double speed = 0, ramp_time = 0;         ///< m/s downward; s to reach it
   double multiplicity = 1;                 ///< beams per model: 2 for a half, 4 for a quarter
   std::vector<std::int32_t> supports, loads;
-  double deflection = 0;                   ///< m, travel of the loading lines
+  double deflection = 0;  ///< m, travel of the loading lines
 
   POLYNYA_STATE_WITHOUT((support_span, load_span, speed, ramp_time, multiplicity, supports, loads), support_span,
                         load_span, speed, ramp_time, multiplicity, supports, loads, deflection)

@@ -8,15 +8,21 @@ namespace {
 
 using results::FieldArray;
 
-double pressure_of(const std::array<double, 6>& s) { return -(s[0] + s[1] + s[2]) / 3; }
+double pressure_of(const std::array<double, 6>& s) {
+  return -(s[0] + s[1] + s[2]) / 3;
+}
 
 double von_mises_of(const std::array<double, 6>& s) {
   const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-FieldArray scalar(const char* name) { return {name, 1, {}}; }
-FieldArray vector(const char* name) { return {name, 3, {}}; }
+FieldArray scalar(const char* name) {
+  return {name, 1, {}};
+}
+FieldArray vector(const char* name) {
+  return {name, 3, {}};
+}
 
 void append(FieldArray& to, const double* values) {
   to.values.insert(to.values.end(), values, values + to.components);
@@ -86,7 +92,8 @@ results::UnstructuredFields particle_fields(const IceBody& ice) {
   return fields;
 }
 
-IceFrames::IceFrames(const std::string& run_folder) : elements_(run_folder, "ice"), particles_(run_folder, "particles") {}
+IceFrames::IceFrames(const std::string& run_folder)
+    : elements_(run_folder, "ice"), particles_(run_folder, "particles") {}
 
 void IceFrames::write(int number, const IceBody& ice) {
   elements_.write(number, element_fields(ice), ice.solid.time);

@@ -6,7 +6,8 @@
 
 namespace polynya::ice {
 
-/// The field frames of the ice: living elements as RUN/fields/ice_NNNN.vtkhdf, particles as RUN/fields/particles_NNNN.vtkhdf.
+/// The field frames of the ice: living elements as RUN/fields/ice_NNNN.vtkhdf, particles as
+/// RUN/fields/particles_NNNN.vtkhdf.
 class IceFrames {
  public:
   explicit IceFrames(const std::string& run_folder);

@@ -12,7 +12,8 @@ namespace {
 // Elements outside the background are not watched; at this interval nothing slower than c/75 can enter unseen.
 constexpr int longest_list_life = 25;
 constexpr double skin_in_smoothing_lengths = 0.2;
-constexpr double background_smoothing_limit = 1.5;  // of the largest particle's: keeps coarse elements from ruling the cells
+constexpr double background_smoothing_limit =
+    1.5;  // of the largest particle's: keeps coarse elements from ruling the cells
 
 /// A particle that crosses a symmetry plane meets its mirror image, which enters on this side.
 void reflect_at_planes(Points& points, std::span<const std::size_t> axes) {
@@ -21,8 +22,8 @@ void reflect_at_planes(Points& points, std::span<const std::size_t> axes) {
       if (points.position[3 * i + axis] >= 0) continue;
       points.position[3 * i + axis] *= -1;
       points.velocity[3 * i + axis] *= -1;
-      points.stress[6 * i + 3] *= -1;                     // xy
-      points.stress[6 * i + (axis == 0 ? 5 : 4)] *= -1;   // zx or yz
+      points.stress[6 * i + 3] *= -1;                    // xy
+      points.stress[6 * i + (axis == 0 ? 5 : 4)] *= -1;  // zx or yz
     }
 }
 
@@ -53,7 +54,8 @@ IceBody make_ice(const IceOptions& options) {
   if (options.own_contact) {
     // The size of the smallest elements sets how far candidates are looked for.
     const auto& volume = ice.solid.element.reference_volume;
-    const double size = std::cbrt(*std::min_element(volume.begin(), volume.begin() + static_cast<std::ptrdiff_t>(ice.solid.element_count())));
+    const double size = std::cbrt(
+        *std::min_element(volume.begin(), volume.begin() + static_cast<std::ptrdiff_t>(ice.solid.element_count())));
     contact::ContactLaw law;
     law.friction = options.contact_friction;
     law.stiffness_factor = options.contact_stiffness_factor;

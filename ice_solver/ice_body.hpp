@@ -29,8 +29,9 @@ struct IceOptions {
   Sides sides = Sides::free;
   bool conversion = true;
   double critical_strain = 0.35;
-  double collapsed_step = 0.1;   ///< an element is also converted when its stable step falls below this part of its first
-  double gravity = 0;            ///< m/s^2, along -z
+  double collapsed_step =
+      0.1;             ///< an element is also converted when its stable step falls below this part of its first
+  double gravity = 0;  ///< m/s^2, along -z
   /// Particles meet intact ice that they are not bonded to by contact, not through the sums; surfaces meet by contact.
   bool own_contact = false;
   double contact_friction = 0, contact_stiffness_factor = 0.1;
@@ -60,14 +61,14 @@ struct IceBooks {
   double broken_mass = 0;                           ///< kg
   ConversionCount converted;
   double particle_kinetic = 0;
-  double removed_since_step = 0;                    ///< kinetic energy of elements converted after the last step
+  double removed_since_step = 0;  ///< kinetic energy of elements converted after the last step
   Trapezoid particle_step_change;
-  double prescribed_work = 0;                       ///< kinetic energy given to nodes whose velocity is set from outside
-  Trapezoid particle_heat;                          ///< taken from the motion by the artificial viscosity
+  double prescribed_work = 0;  ///< kinetic energy given to nodes whose velocity is set from outside
+  Trapezoid particle_heat;     ///< taken from the motion by the artificial viscosity
   Trapezoid node_pair_work, node_gravity_work, particle_gravity_work, particle_load_work;
-  std::array<double, 3> boundary_impulse{};         ///< of symmetry planes, held and damped nodes, until t(n+1/2)
-  double gravity_impulse = 0;                       ///< along z, until t(n+1/2)
-  std::array<double, 3> momentum{};                 ///< at t(n+1/2)
+  std::array<double, 3> boundary_impulse{};  ///< of symmetry planes, held and damped nodes, until t(n+1/2)
+  double gravity_impulse = 0;                ///< along z, until t(n+1/2)
+  std::array<double, 3> momentum{};          ///< at t(n+1/2)
 };
 
 struct IceBody {
@@ -88,9 +89,9 @@ struct IceBody {
   compute::Stopwatch watch;
 
   /// Between steps; the rest is made from the options.
-  POLYNYA_STATE_WITHOUT((options, face_neighbours, first_step, sums, watch), options, solid, face_neighbours, first_step,
-                        particles, background, list, sums, own_contact, list_is_stale, steps_since_build, pair_force,
-                        nodal_force, books, topology_changed, watch)
+  POLYNYA_STATE_WITHOUT((options, face_neighbours, first_step, sums, watch), options, solid, face_neighbours,
+                        first_step, particles, background, list, sums, own_contact, list_is_stale, steps_since_build,
+                        pair_force, nodal_force, books, topology_changed, watch)
 };
 
 /// A plate at rest. Throws std::invalid_argument on bad grid lines.

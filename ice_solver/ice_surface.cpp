@@ -24,7 +24,8 @@ IceSurface surface_of(const IceBody& ice) {
   const Particles& particles = ice.particles;
   const double density = continuum::density(solid.law);
   for (std::size_t i = 0; i < particles.count(); ++i) {
-    // Its volume at rest: what is left when the density of scattered debris has fallen is not ice but the space between.
+    // Its volume at rest: what is left when the density of scattered debris has fallen is not ice but the space
+    // between.
     const double volume = particles.points.mass[i] / density;
     surface.ids.push_back(static_cast<std::int64_t>(solid.node_count()) + particles.element[i]);
     surface.masses.push_back(particles.points.mass[i]);
@@ -61,8 +62,9 @@ void distribute_loads(const IceBody& ice, const IceSurface& surface, std::span<c
     if (v < 0 || v >= static_cast<std::int64_t>(surface.vertex_count()))
       throw std::invalid_argument("a load acts on vertex " + std::to_string(v) + ", the surface of the ice has " +
                                   std::to_string(surface.vertex_count()));
-    double* load = v < node_vertices ? &node_loads[3 * static_cast<std::size_t>(surface.nodes[static_cast<std::size_t>(v)])]
-                                     : &particle_loads[3 * static_cast<std::size_t>(v - node_vertices)];
+    double* load = v < node_vertices
+                       ? &node_loads[3 * static_cast<std::size_t>(surface.nodes[static_cast<std::size_t>(v)])]
+                       : &particle_loads[3 * static_cast<std::size_t>(v - node_vertices)];
     for (std::size_t c = 0; c < 3; ++c) load[c] += forces[3 * k + c];
   }
 }

@@ -9,13 +9,13 @@ namespace polynya::ice {
 
 /// What others can touch and wet: nodes of outer faces, then all particles in the order of their birth.
 struct IceSurface {
-  std::vector<std::int32_t> nodes;       ///< mesh nodes of the first vertices, ascending
-  std::vector<std::int64_t> ids;         ///< [v]; a node keeps its number, a particle has nodes + its element's number
-  std::vector<std::int32_t> triangles;   ///< [t][3], outward oriented, none on symmetry planes
-  std::vector<std::int32_t> elements;    ///< [t], the element a triangle belongs to
-  std::vector<double> masses;            ///< [v], kg
-  std::vector<double> radii;             ///< [v], m: 0 for nodes, V^(1/3)/2 for particles
-  std::vector<double> volumes;           ///< [v], m^3: 0 for nodes
+  std::vector<std::int32_t> nodes;      ///< mesh nodes of the first vertices, ascending
+  std::vector<std::int64_t> ids;        ///< [v]; a node keeps its number, a particle has nodes + its element's number
+  std::vector<std::int32_t> triangles;  ///< [t][3], outward oriented, none on symmetry planes
+  std::vector<std::int32_t> elements;   ///< [t], the element a triangle belongs to
+  std::vector<double> masses;           ///< [v], kg
+  std::vector<double> radii;            ///< [v], m: 0 for nodes, V^(1/3)/2 for particles
+  std::vector<double> volumes;          ///< [v], m^3: 0 for nodes
   std::size_t vertex_count() const { return ids.size(); }
 
   POLYNYA_STATE(nodes, ids, triangles, elements, masses, radii, volumes)

@@ -122,7 +122,8 @@ MomentumBalance momentum_balance(const IceBody& ice) {
   return total;
 }
 
-/// Of the velocities at t(n+1/2), which hold the impulse of every force so far: momentum and impulses balance to rounding.
+/// Of the velocities at t(n+1/2), which hold the impulse of every force so far: momentum and impulses balance to
+/// rounding.
 void book_momentum(IceBody& ice, double dt_previous, double dt_next) {
   const MomentumBalance balance = momentum_balance(ice);
   const double acting_time = 0.5 * (dt_previous + dt_next);

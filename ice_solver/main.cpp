@@ -28,7 +28,8 @@ struct Options {
 };
 
 void start_log(const Options& options) {
-  auto logger = spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", options.resume.empty());
+  auto logger =
+      spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", options.resume.empty());
   logger->flush_on(spdlog::level::trace);
   spdlog::set_default_logger(logger);
 }
@@ -37,7 +38,8 @@ void start_log(const Options& options) {
 void log_law(const continuum::Law& law, const std::string& card) {
   const auto* brittle = std::get_if<continuum::JohnsonHolmquist2>(&law);
   if (!brittle) return;
-  spdlog::info("{}: tensile strength {:.3g} MPa at 1/s", card, 1e-6 * continuum::uniaxial_tensile_strength(*brittle, 1));
+  spdlog::info("{}: tensile strength {:.3g} MPa at 1/s", card,
+               1e-6 * continuum::uniaxial_tensile_strength(*brittle, 1));
   for (const double rate : {1.0, 10.0, 100.0, 1e3, 1e4})
     spdlog::info("{}: unconfined compressive strength {:.3g} MPa at {:g}/s", card,
                  1e-6 * continuum::unconfined_compressive_strength(*brittle, rate), rate);
@@ -63,7 +65,8 @@ int work(const Options& options, ice::IceRun& run) {
     if (options.endpoint.empty() && !options.replay.wanted()) {
       results::replace_text(options.out + "/" + options.name + "_summary.json", ice::run_alone(run).dump(1) + "\n");
     } else {
-      participant.emplace(exchange::Participant::Options{options.endpoint, options.run, options.name, 60, options.replay});
+      participant.emplace(
+          exchange::Participant::Options{options.endpoint, options.run, options.name, 60, options.replay});
       ice::run_coupled(run, *participant);
     }
     spdlog::info("end: {}", ice::last_words(run).dump());
@@ -87,10 +90,12 @@ int work(const Options& options, ice::IceRun& run) {
 int main(int argc, char** argv) {
   exchange::die_with_parent();
   Options options;
-  CLI::App app{"The ice: finite elements that become particles. Alone, or with --connect as a participant of a coupled run."};
+  CLI::App app{
+      "The ice: finite elements that become particles. Alone, or with --connect as a participant of a coupled run."};
   app.add_option("--scene", options.scene, "resolved scene (RUN/scene.json)")->required();
   app.add_option("--out", options.out, "run folder")->required();
-  auto* connect = app.add_option("--connect", options.endpoint, "endpoint of the coupler; without it the ice runs alone");
+  auto* connect =
+      app.add_option("--connect", options.endpoint, "endpoint of the coupler; without it the ice runs alone");
   auto* run_id = app.add_option("--run", options.run, "identity of the run, as given to the coupler");
   connect->needs(run_id);
   app.add_option("--name", options.name, "name of this participant");

@@ -78,8 +78,8 @@ void NeighbourList::collect_points(const Points& particles, const Points& elemen
         points_.push_back({static_cast<std::int32_t>(i), element, mirror});
         x_.push_back(sign.x * x), y_.push_back(sign.y * y), z_.push_back(z);
         h_.push_back(set.smoothing_length[i]);
-        origin_.push_back({sign.x * set.origin[3 * i], sign.y * set.origin[3 * i + 1], set.origin[3 * i + 2],
-                           set.bond_reach[i]});
+        origin_.push_back(
+            {sign.x * set.origin[3 * i], sign.y * set.origin[3 * i + 1], set.origin[3 * i + 2], set.bond_reach[i]});
       }
     }
   };

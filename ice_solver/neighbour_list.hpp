@@ -28,10 +28,10 @@ class NeighbourList {
   static constexpr std::size_t chunk = 128;  ///< rows per chunk of work
 
   struct Row {
-    std::int32_t point = 0;        ///< whose row it is
-    std::int32_t first = 0;        ///< where it starts in its chunk's buffer
-    std::int32_t length = 0;       ///< padded
-    std::int32_t neighbours = 0;   ///< without padding
+    std::int32_t point = 0;       ///< whose row it is
+    std::int32_t first = 0;       ///< where it starts in its chunk's buffer
+    std::int32_t length = 0;      ///< padded
+    std::int32_t neighbours = 0;  ///< without padding
   };
 
   /// bonds_only: a particle and an element are neighbours only if their origins are nearer than both bond reaches.
@@ -43,17 +43,15 @@ class NeighbourList {
 
   std::span<const PointSource> points() const { return points_; }
   std::span<const Row> rows() const { return rows_; }
-  const std::int32_t* row_begin(std::size_t row) const {
-    return buffers_[row / chunk].data() + rows_[row].first;
-  }
+  const std::int32_t* row_begin(std::size_t row) const { return buffers_[row / chunk].data() + rows_[row].first; }
   std::int32_t empty_point() const { return static_cast<std::int32_t>(points_.size()); }
   /// Pairs counted once per side, without padding.
   std::size_t entries() const;
   std::size_t builds() const { return builds_; }
 
   /// The list itself is kept: built anew it would hold other neighbours in another order.
-  POLYNYA_STATE_WITHOUT((x_, y_, z_, h_, origin_, keys_), points_, x_, y_, z_, h_, origin_, bonds_only_, keys_, stride_y_,
-                        stride_z_, rows_, buffers_, built_particles_, built_elements_, skin_, builds_)
+  POLYNYA_STATE_WITHOUT((x_, y_, z_, h_, origin_, keys_), points_, x_, y_, z_, h_, origin_, bonds_only_, keys_,
+                        stride_y_, stride_z_, rows_, buffers_, built_particles_, built_elements_, skin_, builds_)
 
  private:
   struct Range {  // of points in sorted order
@@ -69,10 +67,10 @@ class NeighbourList {
   std::vector<PointSource> points_;
   bool bonded(std::size_t i, std::size_t j) const;
 
-  std::vector<double> x_, y_, z_, h_;     // of the points in sorted order
+  std::vector<double> x_, y_, z_, h_;          // of the points in sorted order
   std::vector<std::array<double, 4>> origin_;  // and their origins with the bond reach
   bool bonds_only_ = false;
-  std::vector<std::int64_t> keys_;        // cell of each point, ascending
+  std::vector<std::int64_t> keys_;  // cell of each point, ascending
   std::int64_t stride_y_ = 0, stride_z_ = 0;
   std::vector<Row> rows_;
   std::vector<std::vector<std::int32_t>> buffers_;

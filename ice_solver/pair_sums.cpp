@@ -84,7 +84,8 @@ void add_pair_forces(const double* self, const double* records, const std::int32
   const Pack approach = dvx * r.x + dvy * r.y + dvz * r.z;
   const Pack inverse_viscous = inverse * product;
   const Pack mu = min(Pack(0.0), r.smoothing_length * approach * (inverse_viscous * mean_density));
-  const Pack pressure = mu * (viscosity.beta * mu - viscosity.alpha * viscosity.sound_speed) * (inverse_viscous * smoothed);
+  const Pack pressure =
+      mu * (viscosity.beta * mu - viscosity.alpha * viscosity.sound_speed) * (inverse_viscous * smoothed);
   const Pack push = weight * pressure;
   sum.x += weight * (own.x + theirs.x);
   sum.y += weight * (own.y + theirs.y);
@@ -174,8 +175,7 @@ void PairSums::velocity_gradients(const NeighbourList& list, const Points& parti
   });
 }
 
-void PairSums::forces(const NeighbourList& list, Points& particles, Points& elements,
-                      const PairViscosity& viscosity) {
+void PairSums::forces(const NeighbourList& list, Points& particles, Points& elements, const PairViscosity& viscosity) {
   load_records(list, particles, elements, true);
   const auto rows = list.rows();
   compute::for_chunks(rows.size(), NeighbourList::chunk, [&](std::size_t begin, std::size_t end) {

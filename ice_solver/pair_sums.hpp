@@ -20,12 +20,12 @@ struct PairViscosity {
 /// force the particle's stress stands for both. So the force is the adjoint of the gradient, the work of every pair is
 /// work of a particle's stress and no energy is lost or made in the bond; broken particles, whose stress is never
 /// tensile, cannot be pulled by the ice beside them; and in a uniform state of stress all is in balance.
-/// (With the element's own stress instead, the pair's stiffness is not symmetric: an elastic bar, half elements and half
-/// particles, lost 30 % of its energy in the bond within two oscillations.)
+/// (With the element's own stress instead, the pair's stiffness is not symmetric: an elastic bar, half elements and
+/// half particles, lost 30 % of its energy in the bond within two oscillations.)
 class PairSums {
  public:
-  /// Velocity gradient of every particle, L_ab = dv_a/dx_b = sum_j w_j m_j/rho_i (v_j - v_i)_a grad_b W_ij ([n][9], w = 2
-  /// for elements), and the largest speed at which a neighbour approaches it ([n], m/s).
+  /// Velocity gradient of every particle, L_ab = dv_a/dx_b = sum_j w_j m_j/rho_i (v_j - v_i)_a grad_b W_ij ([n][9], w =
+  /// 2 for elements), and the largest speed at which a neighbour approaches it ([n], m/s).
   void velocity_gradients(const NeighbourList& list, const Points& particles, const Points& elements,
                           std::span<double> gradient, std::span<double> approach_speed);
 

@@ -51,8 +51,8 @@ void store_state(Particles& p, const Lanes& lanes, const PointState<Pack>& state
 /// sigma : L times V / V0
 Pack stress_power(const PointState<Pack>& state, const Tensor<Pack>& l) {
   const auto& s = state.stress;
-  return state.relative_volume * (s[0] * l[0] + s[1] * l[4] + s[2] * l[8] + s[3] * (l[1] + l[3]) +
-                                  s[4] * (l[5] + l[7]) + s[5] * (l[2] + l[6]));
+  return state.relative_volume *
+         (s[0] * l[0] + s[1] * l[4] + s[2] * l[8] + s[3] * (l[1] + l[3]) + s[4] * (l[5] + l[7]) + s[5] * (l[2] + l[6]));
 }
 
 template <class L>

@@ -56,9 +56,9 @@ continuum::HexMesh plate_mesh(const std::vector<double>& x, const std::vector<do
   for (std::size_t j = 0; j + 1 < y.size(); ++j)
     for (std::size_t i = 0; i + 1 < x.size(); ++i)
       for (std::size_t k = 0; k + 1 < z.size(); ++k)
-        mesh.elements.insert(mesh.elements.end(),
-                             {node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
-                              node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
+        mesh.elements.insert(mesh.elements.end(), {node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k),
+                                                   node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1),
+                                                   node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
   return mesh;
 }
 

@@ -17,11 +17,12 @@ namespace {
 constexpr int rows_per_frame = 100;  // of the time series, between two field frames
 
 std::vector<results::Column> columns() {
-  return {{"time", "s"},           {"load", "N"},           {"support_reaction", "N"}, {"deflection", "m"},
-          {"kinetic", "J"},        {"internal", "J"},       {"hourglass", "J"},        {"viscous", "J"},
-          {"conversion_heat", "J"}, {"boundary_flux", "J"}, {"external_work", "J"},    {"gravity_work", "J"},
-          {"balance", "J"},        {"broken_mass", "kg"},   {"particles", ""},         {"most_damage", ""},
-          {"step", "s"}};
+  return {{"time", "s"},          {"load", "N"},          {"support_reaction", "N"},
+          {"deflection", "m"},    {"kinetic", "J"},       {"internal", "J"},
+          {"hourglass", "J"},     {"viscous", "J"},       {"conversion_heat", "J"},
+          {"boundary_flux", "J"}, {"external_work", "J"}, {"gravity_work", "J"},
+          {"balance", "J"},       {"broken_mass", "kg"},  {"particles", ""},
+          {"most_damage", ""},    {"step", "s"}};
 }
 
 double most_damage(const IceBody& ice) {
@@ -33,17 +34,31 @@ void append_row(results::TimeSeries& series, const IceRun& run, const std::optio
                 double dt) {
   const Account a = account_of(run.ice);
   const double load = rig ? roller_load(*rig, run.ice) : 0, reaction = rig ? support_reaction(*rig, run.ice) : 0;
-  const double row[] = {run.ice.solid.time, load, reaction, rig ? rig->deflection : 0, factor * a.kinetic,
-                        factor * a.internal, factor * a.hourglass, factor * a.viscous, factor * a.conversion_heat,
-                        factor * a.boundary_flux, factor * a.external_work, factor * a.gravity_work,
-                        factor * a.balance(), factor * a.broken_mass, a.particles, most_damage(run.ice), dt};
+  const double row[] = {run.ice.solid.time,
+                        load,
+                        reaction,
+                        rig ? rig->deflection : 0,
+                        factor * a.kinetic,
+                        factor * a.internal,
+                        factor * a.hourglass,
+                        factor * a.viscous,
+                        factor * a.conversion_heat,
+                        factor * a.boundary_flux,
+                        factor * a.external_work,
+                        factor * a.gravity_work,
+                        factor * a.balance(),
+                        factor * a.broken_mass,
+                        a.particles,
+                        most_damage(run.ice),
+                        dt};
   series.append(row);
 }
 
 std::optional<BendingRig> rig_of(IceRun& run) {
   const auto& bending = run.scene.ice->bending;
   if (!bending) return std::nullopt;
-  BendingRig rig = make_bending_rig(run.ice, bending->support_span, bending->load_span, bending->speed, bending->ramp_time);
+  BendingRig rig =
+      make_bending_rig(run.ice, bending->support_span, bending->load_span, bending->speed, bending->ramp_time);
   spdlog::info("bending: supports {:.4g} m apart ({} nodes), loads {:.4g} m apart ({} nodes)", rig.support_span,
                rig.supports.size(), rig.load_span, rig.loads.size());
   return rig;
@@ -66,9 +81,9 @@ nlohmann::json findings(const IceRun& run, const std::optional<BendingRig>& rig,
 struct Course {
   IceRun& run;
   std::optional<BendingRig> rig;
-  double dt = 0;             ///< s
-  int frame = 0, row = 0;    ///< the next ones
-  double peak_load = 0;      ///< N
+  double dt = 0;           ///< s
+  int frame = 0, row = 0;  ///< the next ones
+  double peak_load = 0;    ///< N
   IceFrames frames;
   results::TimeSeries series;
 
@@ -108,7 +123,8 @@ nlohmann::json run_alone(IceRun& run) {
   auto& [same_run, rig, dt, frame, row, peak_load, frames, series] = course;
   const double interval = settings.frame_interval > 0 ? settings.frame_interval : settings.end_time;
   begin(course);
-  results::CheckpointSchedule schedule(run.scene.checkpoint.interval, run.scene.checkpoint.wall_interval, ice.solid.time);
+  results::CheckpointSchedule schedule(run.scene.checkpoint.interval, run.scene.checkpoint.wall_interval,
+                                       ice.solid.time);
   while (true) {
     const bool last = ice.solid.time >= settings.end_time;
     if (rig) peak_load = std::max(peak_load, roller_load(*rig, ice));

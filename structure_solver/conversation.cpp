@@ -59,7 +59,8 @@ void read_loads(const exchange::Message& loads, std::vector<double>& hull_force)
   const auto vertices = loads.view<std::int64_t>("load.vertices");
   const auto forces = loads.view<double>("load.forces");
   if (forces.size() != 3 * vertices.size())
-    throw exchange::ProtocolError("message '" + loads.kind() + "': array 'load.forces' does not hold three values per vertex");
+    throw exchange::ProtocolError("message '" + loads.kind() +
+                                  "': array 'load.forces' does not hold three values per vertex");
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (vertices[i] < 0 || 3 * static_cast<std::size_t>(vertices[i]) >= hull_force.size())
       throw exchange::ProtocolError("message '" + loads.kind() + "': array 'load.vertices' names vertex " +
@@ -116,8 +117,7 @@ struct Course {
 };
 
 /// From `ready` to the first half step; returns its length.
-double begin(BuiltVehicle& vehicle, exchange::Participant& coupler, Output& output,
-             std::vector<double>& hull_force) {
+double begin(BuiltVehicle& vehicle, exchange::Participant& coupler, Output& output, std::vector<double>& hull_force) {
   VehicleBody& body = *vehicle.body;
   exchange::Message begin;
   {

@@ -24,8 +24,7 @@ continuum::ExplicitSolid make_body(const geometry::VehicleMesh& mesh, const cont
 
 }  // namespace
 
-DeformableVehicle::DeformableVehicle(const geometry::VehicleMesh& mesh, const continuum::Law& law,
-                                     const Launch& launch)
+DeformableVehicle::DeformableVehicle(const geometry::VehicleMesh& mesh, const continuum::Law& law, const Launch& launch)
     : solid_(make_body(mesh, law, launch.speed)),
       hull_nodes_(mesh.hull_nodes),
       probe_(solid_, launch.nose_position, launch.length, launch.element_size),

@@ -57,8 +57,8 @@ class DeformableVehicle final : public VehicleBody {
   StressProbe probe_;
   double gravity_ = 0, mass_ = 0, initial_centre_z_ = 0, gravity_impulse_ = 0;
   StartDamping start_damping_;
-  double wave_time_ = 0;                             ///< s, of a stress wave along the body
-  double damped_energy_ = 0, pending_damped_energy_ = 0;  ///< J; of the step that has begun
+  double wave_time_ = 0;                                   ///< s, of a stress wave along the body
+  double damped_energy_ = 0, pending_damped_energy_ = 0;   ///< J; of the step that has begun
   std::vector<double> weight_, external_, damping_force_;  ///< [n][3], N; damping empty when over
 };
 

@@ -46,7 +46,8 @@ std::optional<int> parse(int argc, char** argv, Options& options) {
 }
 
 void start_log(const Options& options) {
-  auto logger = spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", options.resume.empty());
+  auto logger =
+      spdlog::basic_logger_mt(options.name, options.out + "/logs/" + options.name + ".log", options.resume.empty());
   logger->flush_on(spdlog::level::info);
   spdlog::set_default_logger(logger);
 }
@@ -107,7 +108,8 @@ int main(int argc, char** argv) {
     scene = scene::load_resolved_scene(options.scene);
     if (options.replay.wanted()) exchange::check_replayable(options.replay.record, options.name);
     if (!options.resume.empty()) {
-      if (options.endpoint.empty()) throw std::runtime_error("a vehicle that flies alone keeps no checkpoints; run it again");
+      if (options.endpoint.empty())
+        throw std::runtime_error("a vehicle that flies alone keeps no checkpoints; run it again");
       checkpoints_of(options, scene).check();
     }
     start_log(options);

@@ -73,8 +73,8 @@ inline constexpr int station_count = 6;
 class VehicleBody {
  public:
   virtual ~VehicleBody() = default;
-  /// Brings the stress into equilibrium with loads that act from the start ([hull vertices][3] in N); the shape that the
-  /// body has is its shape under these loads. Throws std::runtime_error if none is found.
+  /// Brings the stress into equilibrium with loads that act from the start ([hull vertices][3] in N); the shape that
+  /// the body has is its shape under these loads. Throws std::runtime_error if none is found.
   virtual void settle(std::span<const double> hull_force) = 0;
   /// x(n+1) = x(n) + dt v(n+1/2)
   virtual void advance_positions(double dt) = 0;

@@ -10,6 +10,8 @@ inline constexpr std::size_t pack_width = Pack::size();
 inline constexpr auto aligned = std::experimental::element_aligned;
 
 /// number rounded up to whole packs.
-constexpr std::size_t padded(std::size_t number) { return (number + pack_width - 1) / pack_width * pack_width; }
+constexpr std::size_t padded(std::size_t number) {
+  return (number + pack_width - 1) / pack_width * pack_width;
+}
 
 }  // namespace polynya::compute

@@ -40,7 +40,8 @@ class PenaltyContact {
 
  private:
   POLYNYA_STATE_MEMBERS_WITHOUT((forces_), law_, margin_, first_, second_, secondary_points_, primary_points_, edges_,
-                                watch_, springs_, primary_triangles_, touches_, forces_, searches_, last_step_, outdated_)
+                                watch_, springs_, primary_triangles_, touches_, forces_, searches_, last_step_,
+                                outdated_)
   void search(const Body& primary, const Body& secondary);
 
   ContactLaw law_;

@@ -19,7 +19,7 @@ class Participant {
     std::string run;              ///< identifier of the run, the same for all its processes
     std::string name;             ///< one of the names the coupler expects
     double timeout_seconds = 60;  ///< longest wait for the coupler's answer to `hello`
-    Replay replay = {};           ///< when wanted: the record takes the place of the coupler, endpoint and run are unused
+    Replay replay = {};  ///< when wanted: the record takes the place of the coupler, endpoint and run are unused
   };
 
   /// Connects, says `hello` and waits for `welcome`. Throws EndpointError, Refused, CouplerLost, RecordError.

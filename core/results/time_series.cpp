@@ -28,7 +28,8 @@ TimeSeries::TimeSeries(std::string path, std::vector<Column> columns, Opening op
     return;
   }
   std::string found(line_.size() + 1, ' ');
-  if (::pread(descriptor_, found.data(), found.size(), 0) != static_cast<ssize_t>(found.size()) || found != line_ + '\n')
+  if (::pread(descriptor_, found.data(), found.size(), 0) != static_cast<ssize_t>(found.size()) ||
+      found != line_ + '\n')
     throw ResultsError("the time series " + path_ + " has other columns than this program writes");
 }
 

@@ -89,7 +89,7 @@ void check_dam(const Document& document, const Values& values) {
     if (values.has(solid))
       throw SceneError(document.tables.at(solid) + ": [" + solid + "] cannot stand beside [dam]; remove one");
   if (!values.has("water")) throw SceneError(document.tables.at("dam") + ": [dam] needs [water] and [air]");
-  const std::vector<std::string> known{"water.material", "air.material", "air.pressure",
+  const std::vector<std::string> known{"water.material",        "air.material", "air.pressure",
                                        "fluid.shock_viscosity", "fluid.sweeps", "fluid.sleeping_threshold"};
   for (const auto& [path, entry] : document.values) {
     const bool fluid = path.starts_with("water.") || path.starts_with("air.") || path.starts_with("fluid.");
@@ -108,9 +108,10 @@ void check_sections(const Document& document, const Values& values) {
     for (const auto& [path, entry] : document.values)
       if (path.starts_with("fluid.") && path != "fluid.shock_viscosity" && path != "fluid.sleeping_threshold" &&
           !path.starts_with("fluid.grid_motion.x."))
-        throw SceneError(entry.where + ": " + path +
-                         " cannot stand beside [tube], which has only fluid.shock_viscosity, fluid.sleeping_threshold and "
-                         "fluid.grid_motion.x");
+        throw SceneError(
+            entry.where + ": " + path +
+            " cannot stand beside [tube], which has only fluid.shock_viscosity, fluid.sleeping_threshold and "
+            "fluid.grid_motion.x");
     for (const std::string side : {"tube.left", "tube.right"})
       if (!values.has(side)) throw SceneError(document.tables.at("tube") + ": [" + side + "] is missing");
     return;
@@ -122,7 +123,9 @@ void check_sections(const Document& document, const Values& values) {
   if (values.has("fluid") && !values.has("water"))
     throw SceneError(document.tables.at("fluid") + ": [fluid] needs [water] and [air]");
   if (!values.has("vehicle") && !values.has("ice") && !values.has("water"))
-    throw SceneError(file + ": an empty scene; it needs [vehicle], [ice], [water] with [air], [water] with [air] and [dam], or [tube]");
+    throw SceneError(
+        file +
+        ": an empty scene; it needs [vehicle], [ice], [water] with [air], [water] with [air] and [dam], or [tube]");
 }
 
 Symmetry symmetry_of(const Values& values, const std::string& wish_for_effect) {

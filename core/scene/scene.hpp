@@ -21,8 +21,8 @@ struct Effect {
 /// A constitutive law or equation of state with its constants (SI) and where each came from.
 struct MaterialCard {
   std::string name;  ///< "ice.paper"
-  std::string law;   ///< "elastic", "j2_plastic", "johnson_holmquist_2", "mie_grueneisen", "linear_polynomial", "ideal_gas",
-                     ///< "stiffened_gas", "tait"; docs/scene.md lists the values of each
+  std::string law;   ///< "elastic", "j2_plastic", "johnson_holmquist_2", "mie_grueneisen", "linear_polynomial",
+                    ///< "ideal_gas", "stiffened_gas", "tait"; docs/scene.md lists the values of each
   std::map<std::string, double> values;       ///< "density", "shear_modulus", ... SI
   std::map<std::string, std::string> origin;  ///< per value: "literature: ...", "calibrated: ...", "assumed: ..."
 
@@ -101,7 +101,7 @@ struct Dam {
 /// How the two ends of the fluid's grid move along one axis; planes between keep their share of the way. Displacement:
 /// speed times time plus a table.
 struct AxisMotion {
-  double lower_speed = 0, upper_speed = 0;                              ///< m/s
+  double lower_speed = 0, upper_speed = 0;                            ///< m/s
   std::vector<double> times, lower_displacement, upper_displacement;  ///< s and m; empty or of one length, from 0 and 0
 };
 
@@ -121,17 +121,17 @@ struct Fluid {
   std::string shock_viscosity;      ///< "limited" or "reference"
   std::string sweeps;               ///< "alternating" or "all_orders"
   std::optional<GridMotion> grid_motion;
-  double sleeping_threshold = 0;    ///< relative disturbance below which cells sleep; 0: none does
-  std::optional<Dam> dam;           ///< then the fluid is a tank with walls, x from 0 to length, z from 0 to top
-  std::optional<Tube> tube;         ///< then the fluid is a one-dimensional tube and nothing else above holds
+  double sleeping_threshold = 0;  ///< relative disturbance below which cells sleep; 0: none does
+  std::optional<Dam> dam;         ///< then the fluid is a tank with walls, x from 0 to length, z from 0 to top
+  std::optional<Tube> tube;       ///< then the fluid is a one-dimensional tube and nothing else above holds
 };
 
 struct Contact {
-  double friction = 0;          ///< Coulomb coefficient
-  double stiffness_factor = 0;  ///< of the bound m / dt_window^2
-  double damping = 0;           ///< fraction of critical
-  std::string two_way = "auto"; ///< "auto", "on" or "off": the vehicle's vertices against the ice's surface as well
-  std::string edges = "auto";   ///< "auto", "on" or "off": edges against edges
+  double friction = 0;           ///< Coulomb coefficient
+  double stiffness_factor = 0;   ///< of the bound m / dt_window^2
+  double damping = 0;            ///< fraction of critical
+  std::string two_way = "auto";  ///< "auto", "on" or "off": the vehicle's vertices against the ice's surface as well
+  std::string edges = "auto";    ///< "auto", "on" or "off": edges against edges
 };
 
 /// Checkpoints, whichever comes first; 0: never.
@@ -142,7 +142,7 @@ struct Checkpoint {
 
 /// The interface on record (core/exchange/recorder.hpp); only what differs from "all of it" is there.
 struct Record {
-  std::string participants;     ///< names between commas; empty: all
+  std::string participants;  ///< names between commas; empty: all
   /// Intervals: [from, to, from, to, ...], s and numbers; the last one open where its end is missing; empty: all.
   std::vector<double> times;
   std::vector<std::int64_t> windows;

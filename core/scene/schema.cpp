@@ -56,13 +56,15 @@ std::vector<KeyRule> general_rules() {
       choice("symmetry", {"auto", "full", "half", "quarter"}, "auto",
              "modelled part: half is y >= 0, quarter x >= 0 and y >= 0; auto: quarter (a tube or a dam: full)"),
       choice("run.end", {"auto", "ice_passed", "exited", "time"}, "auto",
-             "what ends the run before `end_time`: nose past the ice, tail above the ice (without ice: above the waterline); "
+             "what ends the run before `end_time`: nose past the ice, tail above the ice (without ice: above the "
+             "waterline); "
              "auto: ice_passed with vehicle and ice, exited with a vehicle in water, else time"),
       positive("run.end_time", dim::time, "auto",
                "latest end; auto: 1.5 (gap + head + 2.6 thickness) / speed, or 1.5 times the way out of the water"),
       positive("run.frame_interval", dim::time, "auto", "between field frames; auto: a thirtieth of `end_time`"),
       positive("run.step_factor", dim::none, "0.9", "fraction of the stable step that the solids use", 1),
-      positive("run.fluid_step_factor", dim::none, "1", "fraction of the fluid's stable step (half a cell per sound and flow speed) that it uses", 1),
+      positive("run.fluid_step_factor", dim::none, "1",
+               "fraction of the fluid's stable step (half a cell per sound and flow speed) that it uses", 1),
       positive("run.filter_frequency", dim::frequency, "20 kHz", "low-pass filter of the reported deceleration"),
       positive("run.join_timeout", dim::time, "60 s", "longest wait for all participants to join a coupled run"),
       number("run.gravity", dim::acceleration, "9.81 m/s^2", "along -z", 0),
@@ -145,7 +147,8 @@ std::vector<KeyRule> fluid_rules() {
              "all axes and dearer"),
       positive("fluid.sleeping_threshold", dim::none, "1e-7",
                "disturbance below which bricks of 8 x 8 x 8 cells sleep: speed over sound speed, change of pressure in "
-               "half a step over the bulk modulus", 1e-3),
+               "half a step over the bulk modulus",
+               1e-3),
       positive("dam.length", dim::length, "required",
                "of the column of water along x; a scene with [dam] has [water], [air] and no solid"),
       positive("dam.height", dim::length, "required", "of the column"),
@@ -171,8 +174,9 @@ std::vector<KeyRule> fluid_rules() {
     rules.push_back(text(path + "times", "none", "of the two next, e.g. \"0, 1 ms, 3 ms\", from 0 on"));
     for (const std::string end : {"lower", "upper"})
       rules.push_back(text(path + end + "_displacement", "none",
-                           "of the " + end + " end at these times, on top of its speed, e.g. \"0, 4 mm, 4 mm\"; linear "
-                           "between, held after the last"));
+                           "of the " + end +
+                               " end at these times, on top of its speed, e.g. \"0, 4 mm, 4 mm\"; linear "
+                               "between, held after the last"));
   }
   return rules;
 }

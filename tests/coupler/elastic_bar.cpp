@@ -7,8 +7,7 @@
 
 using namespace polynya;
 
-ElasticBar::ElasticBar(const std::string& name, double low, double high, double width, int elements,
-                       double speed) {
+ElasticBar::ElasticBar(const std::string& name, double low, double high, double width, int elements, double speed) {
   continuum::HexMesh mesh;
   const double half = 0.5 * width, stiffer = 0.01 * 0.01 / (width * width);
   const double corner[4][2] = {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
@@ -111,7 +110,8 @@ void play_bar(ElasticBar bar, const std::string& body, const std::string& endpoi
   participant.receive("bye");
   std::ofstream file(result_file, std::ios::binary);
   const auto write = [&](const std::vector<double>& values) {
-    file.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(double)));
+    file.write(reinterpret_cast<const char*>(values.data()),
+               static_cast<std::streamsize>(values.size() * sizeof(double)));
   };
   write(bar.solid.positions);
   write(bar.solid.velocities);

@@ -15,7 +15,8 @@ struct ElasticBar {
   ElasticBar(const std::string& name, double low, double high, double width, int elements, double speed);
 
   std::vector<double> gather(const std::vector<double>& nodal) const;  ///< rows of the surface nodes
-  void scatter(std::span<const std::int64_t> vertices, std::span<const double> forces, std::vector<double>& nodal) const;
+  void scatter(std::span<const std::int64_t> vertices, std::span<const double> forces,
+               std::vector<double>& nodal) const;
 
   polynya::exchange::Message ready(const std::string& body) const;
   polynya::exchange::Message surface(long window) const;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-/// The model problem behind lag_limit and radiation_force: a wall of areal mass 1 on a spring against a fluid that answers
-/// with `impedance` times the wall's mean speed of the span before; spans of length 1 in `windows` steps. `answered` is
-/// the share of the change of speed since that span that the water's impedance answers at once. Returns the growth of the
-/// largest amplitude over 300 spans.
+/// The model problem behind lag_limit and radiation_force: a wall of areal mass 1 on a spring against a fluid that
+/// answers with `impedance` times the wall's mean speed of the span before; spans of length 1 in `windows` steps.
+/// `answered` is the share of the change of speed since that span that the water's impedance answers at once. Returns
+/// the growth of the largest amplitude over 300 spans.
 namespace {
 
 double growth(double impedance, double frequency, int windows, double answered) {

@@ -5,8 +5,12 @@
 using namespace polynya::coupler;
 
 TEST(TimeKeeper, SpanIsWholeWindowsWithinEveryLimit) {
-  StepLimits limits{.solid_stable = 1e-7, .solid_factor = 0.9, .fluid_stable = 6e-7, .fluid_factor = 0.5,
-                    .lag_limit = 2.5e-7, .longest_span = 1};
+  StepLimits limits{.solid_stable = 1e-7,
+                    .solid_factor = 0.9,
+                    .fluid_stable = 6e-7,
+                    .fluid_factor = 0.5,
+                    .lag_limit = 2.5e-7,
+                    .longest_span = 1};
   const SpanPlan plan = plan_span(limits);
   EXPECT_EQ(plan.windows, 3);
   EXPECT_LE(plan.step, 0.9e-7);
@@ -16,15 +20,23 @@ TEST(TimeKeeper, SpanIsWholeWindowsWithinEveryLimit) {
 }
 
 TEST(TimeKeeper, FluidFasterThanTheSolidsShortensTheWindow) {
-  const StepLimits limits{.solid_stable = 1e-6, .solid_factor = 0.9, .fluid_stable = 1e-7, .fluid_factor = 1,
-                          .lag_limit = 1, .longest_span = 1};
+  const StepLimits limits{.solid_stable = 1e-6,
+                          .solid_factor = 0.9,
+                          .fluid_stable = 1e-7,
+                          .fluid_factor = 1,
+                          .lag_limit = 1,
+                          .longest_span = 1};
   const SpanPlan plan = plan_span(limits);
   EXPECT_EQ(plan.windows, 1);
   EXPECT_DOUBLE_EQ(plan.step, 1e-7);
 }
 
 TEST(TimeKeeper, WindowFallsAtOnceAndGrowsSlowly) {
-  StepLimits limits{.solid_stable = 1e-7, .solid_factor = 1, .fluid_stable = 0, .fluid_factor = 1, .lag_limit = 0,
+  StepLimits limits{.solid_stable = 1e-7,
+                    .solid_factor = 1,
+                    .fluid_stable = 0,
+                    .fluid_factor = 1,
+                    .lag_limit = 0,
                     .longest_span = 1e-6};
   EXPECT_DOUBLE_EQ(next_step(limits, 1e-7, 1e-8), 1.1e-8);
   limits.solid_stable = 2e-9;

@@ -18,8 +18,12 @@ namespace {
 constexpr double speed = 10;  // m/s
 
 // The target is narrower: nodes exactly above the striker's rim would be as near to its sides as to its end.
-ElasticBar striker() { return {"striker", -0.1, 0, 0.01, 40, speed}; }
-ElasticBar target() { return {"target", 1e-6, 0.100001, 0.008, 40, 0}; }
+ElasticBar striker() {
+  return {"striker", -0.1, 0, 0.01, 40, speed};
+}
+ElasticBar target() {
+  return {"target", 1e-6, 0.100001, 0.008, 40, 0};
+}
 
 scene::Scene two_bar_scene() {
   scene::Scene scene;
@@ -46,11 +50,16 @@ std::pair<ElasticBar, ElasticBar> one_process(const scene::Scene& scene) {
   };
   const std::vector<double> mass_a = masses(a), mass_b = masses(b), radii(b.surface_nodes.size(), 0.0);
   const std::vector<std::int64_t> ids(b.surface_nodes.begin(), b.surface_nodes.end());
-  contact::PenaltyContact contact({.stiffness_factor = 0.1, .depth_limit = 0.5 * 0.0025, .skin = 0.25 * 0.0025, .edges = true});
+  contact::PenaltyContact contact(
+      {.stiffness_factor = 0.1, .depth_limit = 0.5 * 0.0025, .skin = 0.25 * 0.0025, .edges = true});
   const std::vector<double> radii_a(mass_a.size(), 0.0);
   const std::vector<std::int64_t> ids_a(a.surface_nodes.begin(), a.surface_nodes.end());
-  coupler::StepLimits limits{.solid_stable = 0, .solid_factor = scene.run.step_factor, .fluid_stable = 0,
-                             .fluid_factor = 1, .lag_limit = 0, .longest_span = scene.run.frame_interval / 100};
+  coupler::StepLimits limits{.solid_stable = 0,
+                             .solid_factor = scene.run.step_factor,
+                             .fluid_stable = 0,
+                             .fluid_factor = 1,
+                             .lag_limit = 0,
+                             .longest_span = scene.run.frame_interval / 100};
   const auto refresh = [&] {
     limits.solid_stable = std::min(continuum::stable_step(a.solid), continuum::stable_step(b.solid));
   };
@@ -70,10 +79,10 @@ std::pair<ElasticBar, ElasticBar> one_process(const scene::Scene& scene) {
     time += step;
     const auto xa = a.gather(a.solid.positions), va = a.gather(a.solid.velocities);
     const auto xb = b.gather(b.solid.positions), vb = b.gather(b.solid.velocities);
-    const contact::Body body_a{xa, va, mass_a, radii_a, ids_a, a.triangles}, body_b{xb, vb, mass_b, radii, ids, b.triangles};
+    const contact::Body body_a{xa, va, mass_a, radii_a, ids_a, a.triangles},
+        body_b{xb, vb, mass_b, radii, ids, b.triangles};
     if (time == step) contact.set_topology(body_a, body_b);
-    const contact::ContactForces& forces =
-        contact.evaluate(body_a, body_b, step);
+    const contact::ContactForces& forces = contact.evaluate(body_a, body_b, step);
     if (--left == 0) {
       finished = time >= scene.run.end_time - 5e-10;
       plan = coupler::plan_span(limits);

@@ -7,8 +7,8 @@
 #include "fluid_solver/grid.hpp"
 #include "fluid_solver/overlap.hpp"
 
-/// Overlaps of simple bodies computed without the geometry room: an axis-parallel box exactly, a body of revolution about
-/// a vertical axis by Gauss quadrature along its height over exact circle-rectangle areas.
+/// Overlaps of simple bodies computed without the geometry room: an axis-parallel box exactly, a body of revolution
+/// about a vertical axis by Gauss quadrature along its height over exact circle-rectangle areas.
 namespace polynya::fluid::test {
 
 using Vector = std::array<double, 3>;
@@ -17,7 +17,9 @@ struct Box {
   Vector low, high;
 };
 
-inline double common(double a0, double a1, double b0, double b1) { return std::max(0.0, std::min(a1, b1) - std::max(a0, b0)); }
+inline double common(double a0, double a1, double b0, double b1) {
+  return std::max(0.0, std::min(a1, b1) - std::max(a0, b0));
+}
 
 /// Area of {x^2 + y^2 <= r^2, x <= a, y <= b}.
 inline double circle_quadrant(double r, double a, double b) {
@@ -41,14 +43,17 @@ inline double circle_quadrant(double r, double a, double b) {
 
 inline double circle_rectangle(double r, double x0, double x1, double y0, double y1) {
   if (r <= 0) return 0;
-  const double area = circle_quadrant(r, x1, y1) - circle_quadrant(r, x0, y1) - circle_quadrant(r, x1, y0) + circle_quadrant(r, x0, y0);
+  const double area =
+      circle_quadrant(r, x1, y1) - circle_quadrant(r, x0, y1) - circle_quadrant(r, x1, y0) + circle_quadrant(r, x0, y0);
   return std::clamp(area, 0.0, (x1 - x0) * (y1 - y0));
 }
 
 template <class Function>
 double integrate(double from, double to, int pieces, Function&& f) {
-  static constexpr std::array<double, 4> point{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
-  static constexpr std::array<double, 4> weight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
+  static constexpr std::array<double, 4> point{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                               0.8611363115940526};
+  static constexpr std::array<double, 4> weight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                                0.3478548451374538};
   if (to <= from) return 0;
   const double half = 0.5 * (to - from) / pieces;
   double sum = 0;
@@ -72,12 +77,14 @@ inline Revolution sphere(Vector centre, double radius) {
 }
 
 struct Solid {
-  std::function<double(Vector, Vector)> volume;           ///< of solid between two corners
-  std::function<double(int, Vector, Vector)> face;        ///< of solid on a face between two corners, m^2
+  std::function<double(Vector, Vector)> volume;     ///< of solid between two corners
+  std::function<double(int, Vector, Vector)> face;  ///< of solid on a face between two corners, m^2
 };
 
 inline Solid solid(const Box& box) {
-  const auto part = [box](int d, const Vector& a, const Vector& b) { return common(a[d], b[d], box.low[d], box.high[d]); };
+  const auto part = [box](int d, const Vector& a, const Vector& b) {
+    return common(a[d], b[d], box.low[d], box.high[d]);
+  };
   return {[=](Vector a, Vector b) { return part(0, a, b) * part(1, a, b) * part(2, a, b); },
           [=](int normal, Vector a, Vector b) {
             if (a[normal] <= box.low[normal] || a[normal] >= box.high[normal]) return 0.0;
@@ -97,7 +104,8 @@ inline Solid solid(const Revolution& body, int pieces = 8) {
             });
           },
           [=](int normal, Vector a, Vector b) {
-            if (normal == 2) return circle_rectangle(radius(a[2]), a[0] - body.x, b[0] - body.x, a[1] - body.y, b[1] - body.y);
+            if (normal == 2)
+              return circle_rectangle(radius(a[2]), a[0] - body.x, b[0] - body.x, a[1] - body.y, b[1] - body.y);
             return integrate(std::max(a[2], body.bottom), std::min(b[2], body.top), pieces, [&](double z) {
               return normal == 0 ? chord(z, a[0] - body.x, a[1] - body.y, b[1] - body.y)
                                  : chord(z, a[1] - body.y, a[0] - body.x, b[0] - body.x);
@@ -106,7 +114,8 @@ inline Solid solid(const Revolution& body, int pieces = 8) {
 }
 
 /// The overlap of one body, given as vehicle (0) or ice (1), moving with one velocity.
-inline Overlap overlap_of(const Grid& grid, const Solid& body, Vector velocity, Vector low, Vector high, int number = 0) {
+inline Overlap overlap_of(const Grid& grid, const Solid& body, Vector velocity, Vector low, Vector high,
+                          int number = 0) {
   Overlap out;
   const auto corner = [&](int i, int j, int k) { return Vector{grid.x[i], grid.y[j], grid.z[k]}; };
   const auto near = [&](int i, int j, int k) {
@@ -123,10 +132,12 @@ inline Overlap overlap_of(const Grid& grid, const Solid& body, Vector velocity, 
         for (int i = 0; i < fx; ++i) {
           if (!near(i, j, k)) continue;
           const Vector a = corner(i, j, k), b = corner(i + (d != 0), j + (d != 1), k + (d != 2));
-          const double full = (d != 0 ? b[0] - a[0] : 1.0) * (d != 1 ? b[1] - a[1] : 1.0) * (d != 2 ? b[2] - a[2] : 1.0);
+          const double full =
+              (d != 0 ? b[0] - a[0] : 1.0) * (d != 1 ? b[1] - a[1] : 1.0) * (d != 2 ? b[2] - a[2] : 1.0);
           const double covered = body.face(d, a, b);
           if (covered <= 1e-14 * full) continue;
-          const std::size_t f = static_cast<std::size_t>(i) + static_cast<std::size_t>(fx) * (j + static_cast<std::size_t>(fy) * k);
+          const std::size_t f =
+              static_cast<std::size_t>(i) + static_cast<std::size_t>(fx) * (j + static_cast<std::size_t>(fy) * k);
           area[d][f] = std::min(covered, full);
           out.face[d].push_back(static_cast<std::int64_t>(f));
           out.face_solid[d].push_back(std::min(1.0, covered / full));
@@ -143,7 +154,8 @@ inline Overlap overlap_of(const Grid& grid, const Solid& body, Vector velocity, 
         Vector wall{};
         for (int d = 0; d < 3; ++d) {
           const std::size_t fx = grid.nx + (d == 0), fy = grid.ny + (d == 1);
-          const std::size_t lower = i + fx * (j + fy * k), upper = (i + (d == 0)) + fx * ((j + (d == 1)) + fy * (k + (d == 2)));
+          const std::size_t lower = i + fx * (j + fy * k),
+                            upper = (i + (d == 0)) + fx * ((j + (d == 1)) + fy * (k + (d == 2)));
           wall[d] = area[d][upper] - area[d][lower];
         }
         const bool wetted = wall[0] != 0 || wall[1] != 0 || wall[2] != 0;
@@ -167,7 +179,8 @@ inline Overlap overlap_of(const Grid& grid, const Box& box, Vector velocity, int
   return overlap_of(grid, solid(box), velocity, box.low, box.high, number);
 }
 
-inline Overlap overlap_of(const Grid& grid, const Revolution& body, Vector velocity, double largest_radius, int number = 0) {
+inline Overlap overlap_of(const Grid& grid, const Revolution& body, Vector velocity, double largest_radius,
+                          int number = 0) {
   return overlap_of(grid, solid(body), velocity, {body.x - largest_radius, body.y - largest_radius, body.bottom},
                     {body.x + largest_radius, body.y + largest_radius, body.top}, number);
 }

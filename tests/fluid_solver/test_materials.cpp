@@ -10,7 +10,9 @@ namespace {
 
 double numerical_slope(const EquationOfState& law, double rho, double e, bool by_density) {
   const double step = by_density ? 1e-6 * rho : std::max(1.0, 1e-6 * std::abs(e));
-  const auto p = [&](double s) { return respond(law, rho + (by_density ? s : 0.0), e + (by_density ? 0.0 : s)).pressure; };
+  const auto p = [&](double s) {
+    return respond(law, rho + (by_density ? s : 0.0), e + (by_density ? 0.0 : s)).pressure;
+  };
   return (p(step) - p(-step)) / (2 * step);
 }
 
@@ -18,8 +20,13 @@ double numerical_slope(const EquationOfState& law, double rho, double e, bool by
 
 TEST(EquationOfState, DerivativesAreThoseOfThePressure) {
   const std::vector<std::tuple<EquationOfState, double, double>> points{
-      {MieGrueneisen{}, 1100.0, 1e4}, {MieGrueneisen{}, 970.0, 2e3}, {MieGrueneisen{1000, 1484, 1.979, 0, 0, 0.11, 0.7}, 1050.0, 5e4},
-      {LinearPolynomial{1.2, 10, 20, 30, 40, 0.4, 0.3, 0.2}, 2.0, 2e5}, {IdealGas{1.4}, 3.0, 1e5}, {StiffenedGas{4.4, 6e8}, 1000.0, 8e5}, {Tait{}, 1020.0, 0.0}};
+      {MieGrueneisen{}, 1100.0, 1e4},
+      {MieGrueneisen{}, 970.0, 2e3},
+      {MieGrueneisen{1000, 1484, 1.979, 0, 0, 0.11, 0.7}, 1050.0, 5e4},
+      {LinearPolynomial{1.2, 10, 20, 30, 40, 0.4, 0.3, 0.2}, 2.0, 2e5},
+      {IdealGas{1.4}, 3.0, 1e5},
+      {StiffenedGas{4.4, 6e8}, 1000.0, 8e5},
+      {Tait{}, 1020.0, 0.0}};
   for (const auto& [law, rho, e] : points) {
     const Response r = respond(law, rho, e);
     EXPECT_NEAR(r.by_density, numerical_slope(law, rho, e, true), 2e-5 * std::abs(r.by_density)) << law.index();

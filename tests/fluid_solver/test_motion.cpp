@@ -43,7 +43,8 @@ struct Books {
 Books books(const Account& a) {
   Books b{a.energy_sum(), {}, {a.mass[0] + a.boundary_mass[0], a.mass[1] + a.boundary_mass[1]}};
   for (int d = 0; d < 3; ++d) {
-    b.momentum[d] = a.momentum[d] + a.body_impulse[0][d] + a.body_impulse[1][d] + a.boundary_impulse[d] + a.node_fix_impulse[d];
+    b.momentum[d] =
+        a.momentum[d] + a.body_impulse[0][d] + a.body_impulse[1][d] + a.boundary_impulse[d] + a.node_fix_impulse[d];
   }
   b.momentum[2] += a.gravity_impulse;
   return b;
@@ -89,8 +90,8 @@ TEST(Motion, BooksCloseInEveryStep) {
 }
 
 TEST(Motion, LightFlatWallIsNotSwungUpByTheWaterItCarries) {
-  // What nodes before a flat wall give to it reaches it a step later. Here it alone moves the wall, which is lighter than
-  // the half cell of water it carries: followed at once, the pair would swing up in turns.
+  // What nodes before a flat wall give to it reaches it a step later. Here it alone moves the wall, which is lighter
+  // than the half cell of water it carries: followed at once, the pair would swing up in turns.
   Fluid fluid = cube(12, Boundary::non_reflecting);
   const double cell = side / 12, low = 3.95 * cell, wall_mass = 0.2 * 1000 * cell * std::pow(6 * cell, 2);
   const Box box{{3 * cell, 3 * cell, low}, {9 * cell, 9 * cell, 9.5 * cell}};
@@ -138,7 +139,8 @@ TEST(Motion, NumberOfThreadsChangesNoBit) {
   const Fluid one = run(1);
   for (const int more : {2, 3}) {
     const Fluid several = run(more);
-    for (int d = 0; d < 3; ++d) EXPECT_TRUE(one.velocity[d] == several.velocity[d]) << more << " threads, component " << d;
+    for (int d = 0; d < 3; ++d)
+      EXPECT_TRUE(one.velocity[d] == several.velocity[d]) << more << " threads, component " << d;
     for (int m = 0; m < 2; ++m) {
       EXPECT_TRUE(one.material[m].mass == several.material[m].mass) << more << " threads, material " << m;
       EXPECT_TRUE(one.material[m].energy == several.material[m].energy) << more << " threads, material " << m;
@@ -168,7 +170,8 @@ TEST(Motion, DebrisPressesWaterAsideAndIsBooked) {
   for (int n = 1; n <= 1000; ++n) step(fluid, 3e-7, debris((0.3 + 0.0004 * n) * cell));
   for (int n = 0; n < 200; ++n) step(fluid, 3e-7, debris(0.7 * cell));
   EXPECT_NEAR(books(fluid.account).energy, start.energy, 1e-12);
-  EXPECT_NEAR(mass - fluid.account.mass[water], 1000 * 0.4 * cell, 0.05 * 1000 * 0.4 * cell);  // left through the boundary
+  EXPECT_NEAR(mass - fluid.account.mass[water], 1000 * 0.4 * cell,
+              0.05 * 1000 * 0.4 * cell);  // left through the boundary
   EXPECT_NE(fluid.account.swept_defect, 0);
 }
 

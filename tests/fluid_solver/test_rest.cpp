@@ -12,7 +12,7 @@ namespace {
 Fluid basin(int across = 8) {
   Setup setup;
   setup.gravity = 9.81;
-  setup.boundary = {Boundary::wall, Boundary::non_reflecting, Boundary::wall,
+  setup.boundary = {Boundary::wall,           Boundary::non_reflecting, Boundary::wall,
                     Boundary::non_reflecting, Boundary::non_reflecting, Boundary::non_reflecting};
   const auto side = even_line(0, 0.002 * across, across);
   return {Grid(side, side, even_line(-0.04, 0.02, 24)), setup};

@@ -18,7 +18,7 @@ constexpr double radius = 0.005, speed = 40;
 /// A quarter of a sphere in a domain of twelve radii.
 Fluid quarter(int cells_per_diameter) {
   Setup setup;
-  setup.boundary = {Boundary::wall, Boundary::non_reflecting, Boundary::wall,
+  setup.boundary = {Boundary::wall,           Boundary::non_reflecting, Boundary::wall,
                     Boundary::non_reflecting, Boundary::non_reflecting, Boundary::non_reflecting};
   setup.pressure_floor = {-1e300, 0};  // no cavitation: the formula knows none
   const double h = 2 * radius / cells_per_diameter;
@@ -61,8 +61,8 @@ Fluid move_on(int cells_per_diameter, int steps, Visit&& visit) {
   return fluid;
 }
 
-/// Largest error, over 12 bands of equal height, of the pressure averaged over the band's area and over the time in which
-/// the sphere crosses a cell; in stagnation pressures. Potential flow: p = rho V^2/2 (1 - 9/4 sin^2).
+/// Largest error, over 12 bands of equal height, of the pressure averaged over the band's area and over the time in
+/// which the sphere crosses a cell; in stagnation pressures. Potential flow: p = rho V^2/2 (1 - 9/4 sin^2).
 double band_error(int cells_per_diameter) {
   std::array<double, 12> area{}, force{};
   const int steps = 25 * cells_per_diameter;
@@ -117,7 +117,8 @@ TEST(PotentialFlow, WaterFlowsThroughTheFarFieldWithoutResistance) {
   });
   double worst = 0;
   for (int j = 1; j <= fluid.grid.ny; ++j) {
-    for (int i = 1; i <= fluid.grid.nx; ++i) worst = std::max(worst, std::abs(fluid.predicted_pressure[fluid.grid.at(i, j, 1)] - 101325));
+    for (int i = 1; i <= fluid.grid.nx; ++i)
+      worst = std::max(worst, std::abs(fluid.predicted_pressure[fluid.grid.at(i, j, 1)] - 101325));
   }
   EXPECT_GT(1000 * 1480 * initial, 2e5);
   EXPECT_LT(worst, 0.15 * 1000 * 1480 * initial);

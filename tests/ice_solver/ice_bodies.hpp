@@ -15,7 +15,9 @@ inline std::vector<double> line(double from, double to, int cells) {
   return nodes;
 }
 
-inline continuum::Law elastic_ice() { return continuum::Elastic{900, 8.1254e9, 4.4444e9}; }
+inline continuum::Law elastic_ice() {
+  return continuum::Elastic{900, 8.1254e9, 4.4444e9};
+}
 
 /// The constants of the card ice.fresh.
 inline continuum::JohnsonHolmquist2 brittle_ice() {

@@ -37,28 +37,34 @@ BendingResult bend(int layers, double end) {
     ++samples;
   }
   const Account a = account_of(beam);
-  return {load / samples * rig.deflection, reaction / samples * rig.deflection, rig.deflection, a.kinetic, a.external_work,
-          a.internal, a.balance()};
+  return {load / samples * rig.deflection,
+          reaction / samples * rig.deflection,
+          rig.deflection,
+          a.kinetic,
+          a.external_work,
+          a.internal,
+          a.balance()};
 }
 
 TEST(FourPointBending, HasTheStiffnessOfTimoshenkosBeam) {
   const double k = 8.1254e9, g = 4.4444e9, youngs_modulus = 9 * k * g / (3 * k + g);
   const double span = 0.16, arm = 0.05, height = 0.02, area = 4e-4, inertia = area * height * height / 12;
   const double nu = youngs_modulus / (2 * g) - 1, shear_factor = 10 * (1 + nu) / (12 + 11 * nu);  // Cowper 1966
-  const double flexibility = 0.5 * (arm * arm * (3 * span - 4 * arm) / (6 * youngs_modulus * inertia) + arm / (shear_factor * g * area));
+  const double flexibility =
+      0.5 * (arm * arm * (3 * span - 4 * arm) / (6 * youngs_modulus * inertia) + arm / (shear_factor * g * area));
   double error[2];
   int i = 0;
   for (const int layers : {4, 8}) {
     const BendingResult r = bend(layers, 4.5e-3);
     error[i] = r.load * flexibility / r.deflection - 1;
-    std::printf("%d layers: load %.2f N, support %.2f N, theory %.2f N (%+.1f %%), kinetic/work %.1e\n", layers, r.load, r.reaction,
-                r.deflection / flexibility, 100 * error[i], r.kinetic / r.work);
+    std::printf("%d layers: load %.2f N, support %.2f N, theory %.2f N (%+.1f %%), kinetic/work %.1e\n", layers, r.load,
+                r.reaction, r.deflection / flexibility, 100 * error[i], r.kinetic / r.work);
     EXPECT_NEAR(r.reaction, r.load, 0.03 * r.load);
     EXPECT_LT(std::abs(r.balance), 1e-10 * r.work);
     ++i;
   }
-  // One-point elements miss 1/n^2 of the bending stiffness with n layers (6 %, 1.6 %), less what hourglass control adds;
-  // lines of rollers sink into the beam, which theory does not know (2 to 3 %).
+  // One-point elements miss 1/n^2 of the bending stiffness with n layers (6 %, 1.6 %), less what hourglass control
+  // adds; lines of rollers sink into the beam, which theory does not know (2 to 3 %).
   EXPECT_LT(std::abs(error[0]), 0.10);
   EXPECT_LT(std::abs(error[1]), 0.05);
 }

@@ -87,7 +87,8 @@ TEST(Conversion, TakesElementsPastTheCriticalStrainAndNoOthers) {
   // Uniaxial logarithmic strain e has the effective strain 2/3 e; the right half is stretched beyond 0.35.
   for (std::size_t n = 0; n < ice.solid.node_count(); ++n) {
     double& x = ice.solid.positions[3 * n];
-    x = x <= 0.006 + 1e-9 ? x * std::exp(1.5 * 0.34) : 0.006 * std::exp(1.5 * 0.34) + (x - 0.006) * std::exp(1.5 * 0.36);
+    x = x <= 0.006 + 1e-9 ? x * std::exp(1.5 * 0.34)
+                          : 0.006 * std::exp(1.5 * 0.34) + (x - 0.006) * std::exp(1.5 * 0.36);
   }
   EXPECT_EQ(convert_failed_elements(ice), 12u);
   EXPECT_EQ(ice.books.converted.strained, 12);
@@ -104,7 +105,7 @@ TEST(IceSurface, LosesTheNodesOfConvertedElementsAndGainsParticles) {
   options.planes = {true, true};
   IceBody ice = make_ice(options);
   const IceSurface before = surface_of(ice);
-  EXPECT_EQ(before.vertex_count(), 25u * 2 + 4 + 5);          // top, bottom, and middle nodes of two lateral faces
+  EXPECT_EQ(before.vertex_count(), 25u * 2 + 4 + 5);               // top, bottom, and middle nodes of two lateral faces
   EXPECT_EQ(before.triangles.size() / 3, 2u * (16 + 16 + 8 + 8));  // none on the planes x = 0 and y = 0
   const auto corner = elements_where(ice, [](const auto& x) { return x[0] > 0.006 && x[1] > 0.006; });
   convert_elements(ice, corner);
@@ -125,9 +126,12 @@ TEST(IceSurface, LosesTheNodesOfConvertedElementsAndGainsParticles) {
   vertex_motion(ice, after.nodes, x, v);
   double volume = 0;
   for (std::size_t t = 0; t < after.triangles.size(); t += 3) {
-    const double *a = &x[3 * static_cast<std::size_t>(after.triangles[t])], *b = &x[3 * static_cast<std::size_t>(after.triangles[t + 1])],
+    const double *a = &x[3 * static_cast<std::size_t>(after.triangles[t])],
+                 *b = &x[3 * static_cast<std::size_t>(after.triangles[t + 1])],
                  *c = &x[3 * static_cast<std::size_t>(after.triangles[t + 2])];
-    volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
+    volume +=
+        (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) /
+        6;
   }
   EXPECT_NEAR(volume, 30 * 8e-9, 1e-20);
 }

@@ -35,7 +35,8 @@ TEST(SmoothingKernel, IsNormalisedAndItsGradientIsItsDerivative) {
 
 TEST(NeighbourList, HoldsEveryPairInReachThatTheDoubleLoopFinds) {
   Noise noise;
-  Points particles = lattice({7, 6, 5}, spacing, {0, 0, 0}), elements = lattice({7, 6, 3}, spacing, {0, 0, 5 * spacing});
+  Points particles = lattice({7, 6, 5}, spacing, {0, 0, 0}),
+         elements = lattice({7, 6, 3}, spacing, {0, 0, 5 * spacing});
   disturb(particles, noise, 0.3 * spacing);
   for (std::size_t i = 0; i < particles.count(); ++i) particles.smoothing_length[i] *= 1 + 0.2 * noise();
   NeighbourList list;
@@ -43,7 +44,8 @@ TEST(NeighbourList, HoldsEveryPairInReachThatTheDoubleLoopFinds) {
   const auto at = [&](std::int32_t p) {
     const PointSource& s = list.points()[static_cast<std::size_t>(p)];
     const Points& set = s.element ? elements : particles;
-    return std::pair(&set.position[3 * static_cast<std::size_t>(s.index)], set.smoothing_length[static_cast<std::size_t>(s.index)]);
+    return std::pair(&set.position[3 * static_cast<std::size_t>(s.index)],
+                     set.smoothing_length[static_cast<std::size_t>(s.index)]);
   };
   std::size_t expected = 0;
   for (std::size_t a = 0; a < list.points().size(); ++a)
@@ -61,7 +63,8 @@ TEST(NeighbourList, HoldsEveryPairInReachThatTheDoubleLoopFinds) {
 
 TEST(ParticleForces, ConserveLinearMomentumToRounding) {
   Noise noise;
-  Points particles = lattice({8, 8, 6}, spacing, {0, 0, 0}), elements = lattice({8, 8, 4}, spacing, {0, 0, 6 * spacing});
+  Points particles = lattice({8, 8, 6}, spacing, {0, 0, 0}),
+         elements = lattice({8, 8, 4}, spacing, {0, 0, 6 * spacing});
   disturb(particles, noise, 0.2 * spacing);
   disturb(elements, noise, 0.1 * spacing);
   NeighbourList list;
@@ -82,7 +85,8 @@ TEST(ParticleForces, ConserveLinearMomentumToRounding) {
 
 TEST(ParticleForces, DoTheWorkOfTheParticlesStressAndTheViscosityAndNoOther) {
   Noise noise;
-  Points particles = lattice({6, 6, 6}, spacing, {0, 0, 0}), elements = lattice({6, 6, 3}, spacing, {0, 0, 6 * spacing});
+  Points particles = lattice({6, 6, 6}, spacing, {0, 0, 0}),
+         elements = lattice({6, 6, 3}, spacing, {0, 0, 6 * spacing});
   disturb(particles, noise, 0.2 * spacing);
   disturb(elements, noise, 0.1 * spacing);
   NeighbourList list;
@@ -94,19 +98,22 @@ TEST(ParticleForces, DoTheWorkOfTheParticlesStressAndTheViscosityAndNoOther) {
   double work = 0, stress_power = 0, viscous_power = 0;
   for (const Points* set : {&particles, &elements}) {
     work += std::inner_product(set->force.begin(), set->force.end(), set->velocity.begin(), 0.0);
-    viscous_power -= std::inner_product(set->viscous_force.begin(), set->viscous_force.end(), set->velocity.begin(), 0.0);
+    viscous_power -=
+        std::inner_product(set->viscous_force.begin(), set->viscous_force.end(), set->velocity.begin(), 0.0);
   }
   for (std::size_t i = 0; i < particles.count(); ++i) {
     const double *s = &particles.stress[6 * i], *l = &gradient[9 * i];
-    stress_power += particles.mass[i] / particles.density[i] *
-                    (s[0] * l[0] + s[1] * l[4] + s[2] * l[8] + s[3] * (l[1] + l[3]) + s[4] * (l[5] + l[7]) + s[5] * (l[2] + l[6]));
+    stress_power +=
+        particles.mass[i] / particles.density[i] *
+        (s[0] * l[0] + s[1] * l[4] + s[2] * l[8] + s[3] * (l[1] + l[3]) + s[4] * (l[5] + l[7]) + s[5] * (l[2] + l[6]));
   }
   EXPECT_GT(viscous_power, 0);
   EXPECT_NEAR(work, -stress_power - viscous_power, 1e-12 * (std::abs(stress_power) + viscous_power));
 }
 
 TEST(ParticleForces, VanishInsideABlockUnderUniformStress) {
-  Points particles = lattice({9, 9, 9}, spacing, {0, 0, 0}), elements = lattice({9, 9, 4}, spacing, {0, 0, 9 * spacing});
+  Points particles = lattice({9, 9, 9}, spacing, {0, 0, 0}),
+         elements = lattice({9, 9, 4}, spacing, {0, 0, 9 * spacing});
   for (Points* set : {&particles, &elements})
     for (std::size_t i = 0; i < set->count(); ++i) {
       const double stress[6] = {-3e6, -2e6, -1e6, 4e5, 5e5, 6e5};
@@ -176,10 +183,12 @@ TEST(SymmetryPlanes, GiveEveryParticleOfTheQuarterTheSumsOfTheFullBlock) {
   for (double l : gradient) gradient_scale = std::max(gradient_scale, std::abs(l));
   for (std::size_t k = 0; k < quarter.count(); ++k) {
     for (std::size_t a = 0; a < 3; ++a) EXPECT_NEAR(quarter.force[3 * k + a], full.force[12 * k + a], 1e-12 * scale);
-    for (std::size_t a = 0; a < 9; ++a) EXPECT_NEAR(gradient[9 * k + a], full_gradient[36 * k + a], 1e-12 * gradient_scale);
+    for (std::size_t a = 0; a < 9; ++a)
+      EXPECT_NEAR(gradient[9 * k + a], full_gradient[36 * k + a], 1e-12 * gradient_scale);
   }
   for (std::size_t k = 0; k < elements.count(); ++k)
-    for (std::size_t a = 0; a < 3; ++a) EXPECT_NEAR(elements.force[3 * k + a], full_elements.force[12 * k + a], 1e-12 * scale);
+    for (std::size_t a = 0; a < 3; ++a)
+      EXPECT_NEAR(elements.force[3 * k + a], full_elements.force[12 * k + a], 1e-12 * scale);
 }
 
 TEST(VelocityGradient, OfARigidRotationHasNoDivergence) {

@@ -57,7 +57,6 @@ TEST(ParticleMotion, HardlyStirsAnInclusionBornInAStressedBlock) {
   const double strain_energy = (8 * 8 * 8) * 8e-9 * 1e14 / (2 * 8.1254e9);
   std::printf("kinetic / strain energy of inclusion and layers: %.4f\n", most / strain_energy);
   EXPECT_LT(most, 0.05 * strain_energy);
-
 }
 
 TEST(ParticleMotion, CompressesWithTheBulkModulusOfTheIce) {
@@ -97,7 +96,8 @@ double first_rest(bool particles) {
     for (std::size_t i = 0; i < p.count(); ++i)
       sum += p.mass[i] * p.velocity[3 * i] * std::cos(std::numbers::pi * p.position[3 * i] / length);
     for (std::size_t n = 0; n < ice.solid.node_count(); ++n)
-      sum += ice.solid.masses[n] * ice.solid.velocities[3 * n] * std::cos(std::numbers::pi * ice.solid.positions[3 * n] / length);
+      sum += ice.solid.masses[n] * ice.solid.velocities[3 * n] *
+             std::cos(std::numbers::pi * ice.solid.positions[3 * n] / length);
     return sum;
   };
   double before = amplitude(), time = 0;
@@ -115,7 +115,8 @@ TEST(ParticleMotion, CarriesALongitudinalWaveAtTheSpeedOfTheBar) {
   const double k = 8.1254e9, g = 4.4444e9, youngs_modulus = 9 * k * g / (3 * k + g);
   const double quarter_period = 0.5 * 30 * size / std::sqrt(youngs_modulus / 900);
   const double elements = first_rest(false), particles = first_rest(true);
-  std::printf("quarter period: theory %.3e s, elements %.3e s, particles %.3e s\n", quarter_period, elements, particles);
+  std::printf("quarter period: theory %.3e s, elements %.3e s, particles %.3e s\n", quarter_period, elements,
+              particles);
   EXPECT_NEAR(elements, quarter_period, 0.03 * quarter_period);
   // Particles at a free surface lack neighbours, so a layer of about one spacing is soft (no gradient correction).
   EXPECT_NEAR(particles, elements, 0.15 * elements);
@@ -159,14 +160,16 @@ TEST(ParticleMotion, HoldsABlockOfElementsAndParticlesTogetherAndItsEnergyCloses
       const std::size_t e = static_cast<std::size_t>(ice.particles.element[i]);
       const std::size_t corner = 3 * static_cast<std::size_t>(ice.solid.mesh.elements[8 * e]);
       for (std::size_t c = 0; c < 3; ++c)
-        farthest = std::max(farthest, std::abs(ice.particles.points.position[3 * i + c] - ice.solid.mesh.nodes[corner + c] - 0.5 * size));
+        farthest = std::max(farthest, std::abs(ice.particles.points.position[3 * i + c] -
+                                               ice.solid.mesh.nodes[corner + c] - 0.5 * size));
     }
     std::printf("%s: farthest displacement %.3e m\n", brittle ? "brittle" : "elastic", farthest);
     if (!brittle) {
       EXPECT_LT(farthest, 0.1 * size);
     }
     const auto after = momentum_of(ice);
-    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(after[c], momentum[c], 1e-12 * std::sqrt(2 * energy * mass_of(ice)));
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(after[c], momentum[c], 1e-12 * std::sqrt(2 * energy * mass_of(ice)));
   }
 }
 
@@ -203,16 +206,15 @@ TEST(ParticleMotion, ThrowsACloudBackFromIntactIceWithoutMakingEnergy) {
   while (ice.solid.time < 2.5e-4) {
     dt = advance(ice, dt);
     ASSERT_LT(std::abs(account_of(ice).balance() - energy), 0.01 * kinetic);
-    for (std::size_t i = 0; i < points.count(); ++i)
-      deepest = std::max(deepest, depth(&points.position[3 * i]));
+    for (std::size_t i = 0; i < points.count(); ++i) deepest = std::max(deepest, depth(&points.position[3 * i]));
   }
   const Account account = account_of(ice);
   EXPECT_NEAR(account.momentum[2], momentum, 1e-10 * momentum);
   double up = 0;
   for (std::size_t n = 0; n < ice.solid.node_count(); ++n) up += ice.solid.masses[n] * ice.solid.velocities[3 * n + 2];
-  std::printf("cloud gave %.2f of its momentum, kinetic left %.3f, deepest particle %.2e m, balance off %.2e\n", up / momentum,
-              account.kinetic / kinetic, deepest, (account.balance() - energy) / kinetic);
-  EXPECT_GT(up, 0.4 * momentum);   // 0.5 if both stay together
+  std::printf("cloud gave %.2f of its momentum, kinetic left %.3f, deepest particle %.2e m, balance off %.2e\n",
+              up / momentum, account.kinetic / kinetic, deepest, (account.balance() - energy) / kinetic);
+  EXPECT_GT(up, 0.4 * momentum);  // 0.5 if both stay together
   EXPECT_LT(account.kinetic, 0.8 * kinetic);
   EXPECT_LT(deepest, 0.25 * size);  // measured 0.01: particles stop before their centres enter the intact ice
 }
@@ -233,7 +235,8 @@ IceBody breaking_block(SymmetryPlanes planes, int threads) {
     v[2] = 3 * std::cos(300 * x[0]) * std::cos(200 * x[1]) * (x[2] - 0.004) / 0.004;
   }
   double dt = start(ice);
-  convert_elements(ice, elements_where(ice, [](const auto& x) { return std::abs(x[0]) + std::abs(x[1]) + x[2] < 0.0075; }));
+  convert_elements(ice,
+                   elements_where(ice, [](const auto& x) { return std::abs(x[0]) + std::abs(x[1]) + x[2] < 0.0075; }));
   for (int step = 0; step < 60; ++step) dt = advance(ice, std::min(dt, 1.3e-7));
   omp_set_num_threads(omp_get_num_procs());
   return ice;
@@ -255,7 +258,8 @@ TEST(ParticleMotion, OfAQuarterIsThatOfTheFullBlock) {
     }
     EXPECT_LT(nearest, 1e-9 * size);
     for (std::size_t c = 0; c < 3; ++c)
-      EXPECT_NEAR(quarter.particles.points.velocity[3 * i + c], full.particles.points.velocity[3 * twin + c], 1e-8 * scale);
+      EXPECT_NEAR(quarter.particles.points.velocity[3 * i + c], full.particles.points.velocity[3 * twin + c],
+                  1e-8 * scale);
   }
   const Account part = account_of(quarter), whole = account_of(full);
   EXPECT_NEAR(4 * part.kinetic, whole.kinetic, 1e-9 * whole.kinetic);

@@ -43,8 +43,9 @@ TEST(Effects, FluidSleepsWhereAutoFindsItAtRestAtTheStart) {
   const Scene asked = base_scene({"effects.sleeping=on", "fluid.sleeping_threshold=1e-6"});
   EXPECT_EQ(asked.fluid->sleeping_threshold, 1e-6);
   EXPECT_FALSE(resolve(case_folder("vehicle_drop")).effect("sleeping"));
-  EXPECT_NE(message_of(case_folder("vehicle_drop"), {.level = {}, .settings = {"effects.sleeping=on"}}).find("no fluid"),
-            std::string::npos);
+  EXPECT_NE(
+      message_of(case_folder("vehicle_drop"), {.level = {}, .settings = {"effects.sleeping=on"}}).find("no fluid"),
+      std::string::npos);
 }
 
 TEST(Effects, PlanesBetweenWaterAndAirBelongToEveryFluid) {

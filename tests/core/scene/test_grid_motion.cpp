@@ -30,7 +30,8 @@ TEST(GridMotion, WhatCannotMoveIsOneSentence) {
   const auto of_tube = [](const std::string& setting) {
     return message_of(case_folder("shock_tube"), {.level = {}, .settings = {setting}});
   };
-  refused(of_tube("fluid.grid_motion.z.speed=1"), "only fluid.shock_viscosity, fluid.sleeping_threshold and fluid.grid_motion.x");
+  refused(of_tube("fluid.grid_motion.z.speed=1"),
+          "only fluid.shock_viscosity, fluid.sleeping_threshold and fluid.grid_motion.x");
   refused(of_tube("fluid.grid_motion.x.times=\"1, 2\""), "a list with commas that begins with 0");
   refused(of_tube("fluid.grid_motion.x.times=\"0, 2 mm\""), "' 2 mm' is not a time");
   refused(of_tube("fluid.grid_motion.x.times=\"0, 2, 1\""), "must ascend");

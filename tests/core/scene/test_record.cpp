@@ -10,8 +10,9 @@ TEST(RecordOfTheInterface, IsMadeOnlyWhenAskedFor) {
 }
 
 TEST(RecordOfTheInterface, SelectionIsResolvedAndSurvivesTheRoundTrip) {
-  const Scene scene = base_scene({"record.interface=true", "record.participants=ice , structure",
-                                  "record.times=\"0 to 10 us,20 us to 0.03 ms , 1e-4 to end\"", "record.region.z_min=\"-5 mm\""});
+  const Scene scene =
+      base_scene({"record.interface=true", "record.participants=ice , structure",
+                  "record.times=\"0 to 10 us,20 us to 0.03 ms , 1e-4 to end\"", "record.region.z_min=\"-5 mm\""});
   EXPECT_EQ(scene.record->participants, "ice,structure");
   ASSERT_EQ(scene.record->times.size(), 5u);  // the last one open
   const double ends[] = {0, 1e-5, 2e-5, 3e-5, 1e-4};
