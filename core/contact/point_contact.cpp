@@ -14,7 +14,8 @@ constexpr int longest_walk = 64;  // triangles that a held point may pass in a s
 // In parts of a triangle: nothing slips through between two triangles, and a corner that comes down on a corner is
 // caught though rounding or its own widening puts it a little beside.
 constexpr double seam = 1e-6;
-constexpr double rounding = 1e-14;  // of coordinates: what lies on a face counts as outside
+constexpr double steepest_depth = 2;  // change of depth over motion, see faded_depth
+constexpr double rounding = 1e-14;    // of coordinates: what lies on a face counts as outside
 
 struct Corners {
   Vector3 a, b, c;
@@ -64,6 +65,16 @@ Vector3 tangential(const Vector3& v, const Vector3& normal) {
 
 Vector3 point_on(const Corners& x, const Vector3& w) {
   return w[0] * x.a + w[1] * x.b + w[2] * x.c;
+}
+
+/// Of a point against the corner of a triangle that it moves fastest against, m/s.
+double relative_speed(const Body& points, std::size_t point, const Body& surface, std::size_t triangle) {
+  double fastest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    fastest =
+        std::max(fastest, norm(row(points.velocities, point) -
+                               row(surface.velocities, static_cast<std::size_t>(surface.triangles[3 * triangle + k]))));
+  return fastest;
 }
 
 /// A triangle and the point of it that is nearest to the contact's point.
@@ -187,7 +198,7 @@ void PointContact::begin(std::size_t triangle, std::size_t point, bool inside, b
 }
 
 bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTopology& topology,
-                        const Exclusion& exclusion, std::size_t point, Touch& touch) {
+                        const Exclusion& exclusion, double dt, std::size_t point, Touch& touch) {
   PairState& state = states_[point];
   const Vector3 p = row(points.positions, point);
   const Footing at = nearest_footing(surface, topology, exclusion, point, static_cast<std::size_t>(state.feature), p);
@@ -202,6 +213,10 @@ bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTo
     state.dropped = dropped;
     return false;
   }
+  // What is deeper than motion can have brought it was uncovered: it exerts no force, as at the start.
+  state.offset += std::max(
+      0.0, depth.value - state.depth - steepest_depth * dt * relative_speed(points, point, surface, at.triangle));
+  state.depth = std::max(0.0, depth.value);
   state.feature = static_cast<std::int32_t>(at.triangle);
   state.inside = depth.inside;
   const std::int32_t* v = &surface.triangles[3 * at.triangle];
@@ -222,7 +237,7 @@ bool PointContact::find_one(const Body& points, const Body& surface, const Surfa
                             const Exclusion& exclusion, double dt, std::size_t point,
                             std::span<const std::int32_t> candidates, Touch& touch) {
   const bool was_held = states_[point].feature >= 0;
-  if (was_held && hold(points, surface, topology, exclusion, point, touch)) return true;
+  if (was_held && hold(points, surface, topology, exclusion, dt, point, touch)) return true;
   const Vector3 p = row(points.positions, point), p_before = p - dt * row(points.velocities, point);
   const double radius = points.radii[point], limit = radius + settings_.depth_limit;
   double first = infinity, least = limit * limit;
@@ -241,13 +256,13 @@ bool PointContact::find_one(const Body& points, const Body& surface, const Surfa
   }
   if (first < infinity) {
     begin(through, point, true, false);
-    return hold(points, surface, topology, exclusion, point, touch);
+    return hold(points, surface, topology, exclusion, dt, point, touch);
   }
   if (!near) return false;
   const Depth depth = depth_at(surface, topology, settings_.mirror, nearest, foot, p, radius, false);
   if (!(depth.value > 0)) return false;
   begin(nearest, point, depth.inside, depth.inside || fresh_[point] != 0);
-  return hold(points, surface, topology, exclusion, point, touch);
+  return hold(points, surface, topology, exclusion, dt, point, touch);
 }
 
 void PointContact::find(const Body& points, const Body& surface, const SurfaceTopology& topology,

@@ -18,7 +18,7 @@ namespace polynya::contact {
 ///
 /// A point that is inside without having come through (at the start, when it is new, or when the surface behind it
 /// is) exerts no force at first: that depth becomes its offset, which shrinks as the point moves out. It is found to
-/// depth_limit.
+/// depth_limit. The same holds for depth that comes without motion, when surface beside a point is uncovered.
 class PointContact {
  public:
   struct Settings {
@@ -54,7 +54,7 @@ class PointContact {
   bool find_one(const Body& points, const Body& surface, const SurfaceTopology& topology, const Exclusion& exclusion,
                 double dt, std::size_t point, std::span<const std::int32_t> candidates, Touch& touch);
   bool hold(const Body& points, const Body& surface, const SurfaceTopology& topology, const Exclusion& exclusion,
-            std::size_t point, Touch& touch);
+            double dt, std::size_t point, Touch& touch);
   void begin(std::size_t triangle, std::size_t point, bool inside, bool accepted);
   /// For each triangle of the old surface its number in the new one, -1 if it vanished.
   std::vector<std::int32_t> renumber_triangles(const Body& surface);

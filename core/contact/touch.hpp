@@ -14,6 +14,7 @@ struct PairState {
   bool on_face = false;        ///< its foot was within a triangle, not on an edge
   bool accepted = false;       ///< found inside without having come through the surface
   double stiffness = 0;        ///< N/m
+  double depth = 0;            ///< m, in the last step
   double offset = 0;           ///< m, depth that exerts no force
   double inherited_force = 0;  ///< N, of vanished neighbours whose place the point takes
   double normal_force = 0;     ///< N, in the last step
