@@ -18,6 +18,7 @@ constexpr long steps_between_good_states = 20;  ///< keeping one costs about as 
 std::string unit_of(const std::string& name) {
   if (name.find("mass") != std::string::npos) return "kg";
   if (name.find("impulse") != std::string::npos || name.find("momentum") != std::string::npos) return "N s";
+  if (name == "released_room" || name.starts_with("swept_volume")) return "m^3";
   return "J";
 }
 
