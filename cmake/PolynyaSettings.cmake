@@ -65,6 +65,9 @@ function(polynya_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
+  if(POLYNYA_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
+    math(EXPR ARG_TIMEOUT "10 * ${ARG_TIMEOUT}")  # these builds are up to ten times as slow
+  endif()
   set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
     ENVIRONMENT "OMP_WAIT_POLICY=passive")
 endfunction()
