@@ -44,7 +44,9 @@ std::vector<double> shares_of_area(const geometry::VehicleMesh& mesh, double mas
   std::vector<double> shares(mesh.hull_nodes.size(), 0.0);
   double whole = 0;
   for (std::size_t t = 0; t < mesh.hull_triangles.size(); t += 3) {
-    const auto corner = [&](int c) { return Eigen::Vector3d::Map(&mesh.hexahedra.nodes[3 * mesh.hull_triangles[t + c]]); };
+    const auto corner = [&](int c) {
+      return Eigen::Vector3d::Map(&mesh.hexahedra.nodes[3 * mesh.hull_triangles[t + c]]);
+    };
     const double area = (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
     for (int c = 0; c < 3; ++c) shares[mesh.hull_triangles[t + c]] += area;
     whole += 3 * area;
@@ -84,7 +86,8 @@ void make_rigid(BuiltVehicle& built, const scene::Scene& scene, RigidMotion at_r
   note_mass_properties(built, at_rest);
   built.mass = at_rest.mass;
   built.whole_mass = geometry::portions_in_whole(portion) * at_rest.mass;
-  built.body = std::make_unique<RigidVehicle>(built.mesh.hexahedra.nodes, built.mesh.hull_nodes, at_rest, portion, launch);
+  built.body =
+      std::make_unique<RigidVehicle>(built.mesh.hexahedra.nodes, built.mesh.hull_nodes, at_rest, portion, launch);
 }
 
 /// The surface of a file as it stands at the start. Vertices share the mass by the areas around them: contact takes its

@@ -15,14 +15,14 @@ namespace polynya::structure {
 struct BuiltVehicle {
   geometry::VehicleMesh mesh;
   geometry::MeshQuality quality;
-  std::vector<double> node_masses;  ///< kg
-  double density = 0;               ///< kg/m^3 that the mesh carries
-  double nominal_density = 0;       ///< kg/m^3 of the material
-  double mass = 0;                  ///< kg of the modelled part
-  double whole_mass = 0;            ///< kg of the whole body
-  geometry::Point centre{};                          ///< m, of mass, at the start
-  std::array<std::array<double, 3>, 3> inertia{};    ///< kg m^2, about it, of the modelled part
-  std::string mass_note;            ///< how the mass came about, a whole sentence
+  std::vector<double> node_masses;                 ///< kg
+  double density = 0;                              ///< kg/m^3 that the mesh carries
+  double nominal_density = 0;                      ///< kg/m^3 of the material
+  double mass = 0;                                 ///< kg of the modelled part
+  double whole_mass = 0;                           ///< kg of the whole body
+  geometry::Point centre{};                        ///< m, of mass, at the start
+  std::array<std::array<double, 3>, 3> inertia{};  ///< kg m^2, about it, of the modelled part
+  std::string mass_note;                           ///< how the mass came about, a whole sentence
   std::unique_ptr<VehicleBody> body;
 };
 

@@ -32,8 +32,8 @@ class Output {
   compute::Stopwatch& watch() { return watch_; }
 
   POLYNYA_STATE_WITHOUT((folder_, name_, vehicle_, report_, watch_), folder_, name_, vehicle_, report_, watch_, frames_,
-                        series_, attitude_, row_interval_, next_row_, last_row_, time_, step_, smallest_step_, account_, first_,
-                        peak_stress_, peak_time_, peak_vertex_, steps_)
+                        series_, attitude_, row_interval_, next_row_, last_row_, time_, step_, smallest_step_, account_,
+                        first_, peak_stress_, peak_time_, peak_vertex_, steps_)
 
  private:
   void write_row();

@@ -10,8 +10,8 @@ namespace polynya::structure {
 /// without loads ARKODE turns it (advance_torque_free()).
 class RigidVehicle final : public VehicleBody {
  public:
-  /// nodes: [n][3], m, placed as the launch says, and which of them are the hull's. at_rest: mass, centre and inertia of
-  /// the body in that place. Portion full: six degrees of freedom; half: x, z and turning about y; quarter: z.
+  /// nodes: [n][3], m, placed as the launch says, and which of them are the hull's. at_rest: mass, centre and inertia
+  /// of the body in that place. Portion full: six degrees of freedom; half: x, z and turning about y; quarter: z.
   RigidVehicle(std::vector<double> nodes, std::span<const std::int32_t> hull_nodes, const RigidMotion& at_rest,
                geometry::Portion portion, const Launch& launch);
 

@@ -57,8 +57,7 @@ void advance_torque_free(RigidMotion& body, double dt, double tolerance) {
   Eigen::Quaterniond orientation(body.orientation);
   const std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector> state(
       N_VMake_Serial(4, orientation.coeffs().data(), context.get()));
-  const std::unique_ptr<void, FreeIntegrator> solver(
-      ERKStepCreate(quaternion_rate, 0.0, state.get(), context.get()));
+  const std::unique_ptr<void, FreeIntegrator> solver(ERKStepCreate(quaternion_rate, 0.0, state.get(), context.get()));
   check(ERKStepSStolerances(solver.get(), tolerance, 0.1 * tolerance), "ERKStepSStolerances");
   check(ERKStepSetTableNum(solver.get(), ARKODE_FEHLBERG_13_7_8), "ERKStepSetTableNum");
   check(ERKStepSetUserData(solver.get(), &spin), "ERKStepSetUserData");

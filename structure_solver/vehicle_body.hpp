@@ -66,10 +66,10 @@ struct VehicleFields {
 
 /// Where a rigid body is and how it moves: centre and nose at t(n), rates of (n+1/2); in space.
 struct Attitude {
-  std::array<double, 3> centre{}, velocity{};          ///< m, m/s
-  std::array<double, 3> nose_direction{};              ///< unit vector
-  std::array<double, 3> angular_velocity{};            ///< rad/s
-  std::array<double, 3> angular_momentum{};            ///< kg m^2/s, about the centre
+  std::array<double, 3> centre{}, velocity{};  ///< m, m/s
+  std::array<double, 3> nose_direction{};      ///< unit vector
+  std::array<double, 3> angular_velocity{};    ///< rad/s
+  std::array<double, 3> angular_momentum{};    ///< kg m^2/s, about the centre
 };
 
 /// Number of stations along the axis: 0, 20, ... 100 % of the length.

@@ -40,7 +40,8 @@ double highest_above_nose(const Vehicle& vehicle) {
   double highest = 0;
   for (int i = 0; i <= steps; ++i) {
     const double s = vehicle.length * i / steps;
-    highest = std::max(highest, hull_radius(vehicle, s) * std::abs(std::sin(vehicle.angle)) - s * std::cos(vehicle.angle));
+    highest =
+        std::max(highest, hull_radius(vehicle, s) * std::abs(std::sin(vehicle.angle)) - s * std::cos(vehicle.angle));
   }
   return highest;
 }

@@ -11,7 +11,7 @@
 namespace polynya::scene {
 namespace {
 
-const std::map<std::string, double> file_units{{"m", 1},      {"cm", 1e-2},   {"mm", 1e-3},
+const std::map<std::string, double> file_units{{"m", 1},     {"cm", 1e-2},   {"mm", 1e-3},
                                                {"um", 1e-6}, {"in", 0.0254}, {"ft", 0.3048}};
 
 /// What a quarter (x >= 0, y >= 0) or a half (y >= 0) cannot mirror.
@@ -94,7 +94,8 @@ void read_hull_file(const Values& values, Vehicle& v) {
   HullFile h;
   const std::string unit = values.text("vehicle.file_unit");
   if (unit == "none")
-    values.fail("vehicle.file_unit", "missing; a file of a surface does not say its unit; must be m, cm, mm, um, in or ft");
+    values.fail("vehicle.file_unit",
+                "missing; a file of a surface does not say its unit; must be m, cm, mm, um, in or ft");
   h.unit = file_units.at(unit);
   h.file = std::filesystem::absolute(values.folder() / values.text("vehicle.surface_file")).lexically_normal().string();
   h.nose = values.text("vehicle.file_nose"), h.repair = values.text("vehicle.repair");
@@ -126,8 +127,9 @@ void check_start(const Values& values, const Scene& scene) {
   if (!v.deformable) return;
   for (const std::string key : {"vehicle.spin", "vehicle.pitch_rate"})
     if (values.number(key) != 0)
-      values.fail(key, "an elastic hull would start without the stress that turning gives it; set "
-                       "effects.deformable_vehicle = \"off\"");
+      values.fail(key,
+                  "an elastic hull would start without the stress that turning gives it; set "
+                  "effects.deformable_vehicle = \"off\"");
   if (!v.ballast.empty())
     values.fail("vehicle.ballast", "needs a rigid vehicle; set effects.deformable_vehicle = \"off\"");
 }

@@ -110,7 +110,8 @@ void refuse_flat(const TriangleSoup& soup) {
     const Place a(soup.points[t[0]][0], soup.points[t[0]][1], soup.points[t[0]][2]),
         b(soup.points[t[1]][0], soup.points[t[1]][1], soup.points[t[1]][2]),
         c(soup.points[t[2]][0], soup.points[t[2]][1], soup.points[t[2]][2]);
-    const double longest = std::max({CGAL::squared_distance(a, b), CGAL::squared_distance(b, c), CGAL::squared_distance(c, a)});
+    const double longest =
+        std::max({CGAL::squared_distance(a, b), CGAL::squared_distance(b, c), CGAL::squared_distance(c, a)});
     if (std::sqrt(CGAL::cross_product(b - a, c - a).squared_length()) <= flat * longest)
       throw GeometryError("a triangle has no area " + near(soup.points[t[0]]));
   }
@@ -143,8 +144,7 @@ Mesh make_mesh(const TriangleSoup& soup, std::vector<Triangle>& oriented) {
   processing::orient_polygon_soup(points, oriented);
   Mesh mesh;
   processing::polygon_soup_to_polygon_mesh(points, oriented, mesh);
-  if (!CGAL::is_closed(mesh))
-    throw GeometryError("the surface has one side only: it cannot be oriented");
+  if (!CGAL::is_closed(mesh)) throw GeometryError("the surface has one side only: it cannot be oriented");
   return mesh;
 }
 

@@ -30,8 +30,7 @@ SolidProperties solid_properties(const TriangleSoup& surface) {
     // The mean of x y over a tetrahedron with a corner at the origin: (sum of corners x y + product of sums) / 20.
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j)
-        second[i][j] +=
-            six / 120 * (p[0][i] * p[0][j] + p[1][i] * p[1][j] + p[2][i] * p[2][j] + sum[i] * sum[j]);
+        second[i][j] += six / 120 * (p[0][i] * p[0][j] + p[1][i] * p[1][j] + p[2][i] * p[2][j] + sum[i] * sum[j]);
   }
   SolidProperties solid;
   solid.volume = volume;

@@ -46,7 +46,9 @@ class Words {
     if (end == word.c_str() || *end != 0) fail("'" + word + "' is no number");
     return value;
   }
-  [[noreturn]] void fail(const std::string& what) const { source_.fail("line " + std::to_string(number_) + ": " + what); }
+  [[noreturn]] void fail(const std::string& what) const {
+    source_.fail("line " + std::to_string(number_) + ": " + what);
+  }
   std::size_t behind() const { return at_; }
 
  private:
@@ -230,7 +232,8 @@ TriangleSoup read_ply(const Source& source) {
       elements.push_back({words[1], static_cast<std::size_t>(text.real(words[2])), {}});
     if (words[0] == "property" && elements.empty()) text.fail("a property without an element");
     if (words[0] == "property" && words.size() == 3) elements.back().properties.push_back({words[2], words[1], ""});
-    if (words[0] == "property" && words.size() == 5) elements.back().properties.push_back({words[4], words[3], words[2]});
+    if (words[0] == "property" && words.size() == 5)
+      elements.back().properties.push_back({words[4], words[3], words[2]});
   }
   if (format != "ascii" && format != "binary_little_endian" && format != "binary_big_endian")
     source.fail("format '" + format + "' is not ascii, binary_little_endian or binary_big_endian");

@@ -18,7 +18,8 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Place = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Place>;
 using Triangles = std::vector<Kernel::Triangle_3>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
+using Tree =
+    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
 
 Triangles triangles_of(const TriangleSoup& soup) {
   Triangles triangles;
@@ -50,7 +51,8 @@ Wrap wrap_soup(const TriangleSoup& soup, double alpha, double offset) {
   Mesh mesh;
   CGAL::alpha_wrap_3(points, soup.triangles, alpha, offset, mesh);
   Wrap wrap;
-  for (const auto v : mesh.vertices()) wrap.surface.points.push_back({mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()});
+  for (const auto v : mesh.vertices())
+    wrap.surface.points.push_back({mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()});
   for (const auto f : mesh.faces()) {
     Triangle triangle{};
     std::size_t corner = 0;

@@ -60,7 +60,8 @@ struct Reference {
   Matrix3d orientation;
 };
 
-Reference integrate(Loads loads, const Vector3d& place, const Vector3d& velocity, const Vector3d& angular, double time) {
+Reference integrate(Loads loads, const Vector3d& place, const Vector3d& velocity, const Vector3d& angular,
+                    double time) {
   loads.inverse = loads.inertia.inverse();
   SUNContext context = nullptr;
   SUNContext_Create(nullptr, &context);
@@ -122,8 +123,7 @@ TEST(FreeBody, ATorqueFreeTopKeepsEnergyAndAngularMomentumOverAThousandTurnsByAr
 TEST(FreeBody, OneFlightByArkodeOfManyTurnsIsThatOfEulersEquations) {
   RigidMotion body = tumbling_top();
   const double time = 100;
-  const Reference end =
-      integrate({.inertia = body.inertia}, body.centre, body.velocity, angular_velocity(body), time);
+  const Reference end = integrate({.inertia = body.inertia}, body.centre, body.velocity, angular_velocity(body), time);
   advance_torque_free(body, time);
   EXPECT_LT((body.orientation - end.orientation).norm(), 1e-7);
 }
@@ -142,8 +142,8 @@ TEST(FreeBody, AFallingSpinningVehicleFollowsTheReference) {
   EXPECT_NEAR(start.velocity.norm(), 40, 1e-12);
   EXPECT_NEAR(start.velocity.x() / start.velocity.z(), std::tan(0.4), 1e-12);
   const double time = 0.1, energy = body.account().kinetic;
-  const Reference end = integrate({.inertia = start.inertia, .mass = start.mass, .gravity = 9.81},
-                                  start.centre, start.velocity, angular_velocity(start), time);
+  const Reference end = integrate({.inertia = start.inertia, .mass = start.mass, .gravity = 9.81}, start.centre,
+                                  start.velocity, angular_velocity(start), time);
   const int steps = 200;
   const double dt = time / steps;
   body.finish_step({}, 0, dt);
@@ -162,8 +162,11 @@ TEST(FreeBody, AFallingSpinningVehicleFollowsTheReference) {
 }
 
 TEST(FreeBody, ALoadedBodyConvergesToTheReferenceWithTheSquareOfTheStep) {
-  Loads loads{.inertia = Vector3d(1.0, 2.0, 3.5).asDiagonal(), .mass = 2, .gravity = 9.81,
-              .torque = {0.3, -0.2, 0.5}, .force = {1, 2, -1}};
+  Loads loads{.inertia = Vector3d(1.0, 2.0, 3.5).asDiagonal(),
+              .mass = 2,
+              .gravity = 9.81,
+              .torque = {0.3, -0.2, 0.5},
+              .force = {1, 2, -1}};
   const Vector3d angular(0.4, 1.2, -0.7), velocity(1, 2, 3);
   const double time = 4;
   const Reference end = integrate(loads, Vector3d::Zero(), velocity, angular, time);

@@ -25,7 +25,8 @@ TEST(VehicleStart, WhatASymmetryCannotMirrorIsRefusedWithAReason) {
   expect_words(refusal({"vehicle.offset_x=1 mm"}), {"vehicle.offset_x", "quarter model cannot hold"});
   expect_words(refusal({"vehicle.pitch_rate=5 rad/s"}), {"vehicle.pitch_rate", "quarter"});
   expect_words(refusal({"symmetry=half", "vehicle.offset_y=1 mm"}), {"vehicle.offset_y", "plane y = 0", "\"full\""});
-  expect_words(refusal({"symmetry=half", "vehicle.spin=5 rad/s"}), {"vehicle.spin", "one hand", "half model", "\"full\""});
+  expect_words(refusal({"symmetry=half", "vehicle.spin=5 rad/s"}),
+               {"vehicle.spin", "one hand", "half model", "\"full\""});
   EXPECT_EQ(refusal({"symmetry=half", "vehicle.angle=20 deg", "vehicle.offset_x=1 mm"}), "");
   EXPECT_EQ(refusal({"symmetry=full", "vehicle.offset_y=1 mm"}), "");
 }
