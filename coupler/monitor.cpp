@@ -53,7 +53,8 @@ Monitor::Monitor(const scene::Scene& scene, const std::string& run_folder, const
   read_vehicle(conversation);
   initial_speed_ = speed_;
   if (const SolidSide* vehicle = conversation.find(Body::vehicle)) {
-    initial_kinetic_ = 0.5 * mass_ * speed_ * speed_;
+    const double u = vehicle->account["momentum_x"] / mass_, v = vehicle->account["momentum_y"] / mass_;
+    initial_kinetic_ = 0.5 * mass_ * (speed_ * speed_ + u * u + v * v);
     initial_momentum_ = vehicle->account["momentum_z"];
   }
 }

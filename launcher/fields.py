@@ -9,7 +9,7 @@ import numpy
 
 from launcher.run_folder import read_json
 
-HEXAHEDRON, VERTEX = 12, 1
+HEXAHEDRON, TRIANGLE, VERTEX = 12, 5, 1
 EDGES = numpy.array([(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)])
 
 
@@ -53,7 +53,10 @@ def read_frame(path: Path) -> Frame:
         kinds, connectivity, offsets = root["Types"][:], root["Connectivity"][:], root["Offsets"][:]
         is_hexahedron, is_vertex = kinds == HEXAHEDRON, kinds == VERTEX
         first = offsets[:-1]
-        hexahedra = connectivity[first[is_hexahedron][:, None] + numpy.arange(8)]
+        corners = numpy.arange(8)
+        if not is_hexahedron.any():  # a bare surface: its triangles are hexahedra without volume
+            is_hexahedron, corners = kinds == TRIANGLE, numpy.array([0, 1, 2, 2, 0, 1, 2, 2])
+        hexahedra = connectivity[first[is_hexahedron][:, None] + corners]
         cell_data = {name: data[:] for name, data in root.get("CellData", {}).items()}
         if len(points) == len(kinds):  # fields of particles may be given per point: the same thing
             cell_data = {**{name: data[:] for name, data in root.get("PointData", {}).items()}, **cell_data}

@@ -33,7 +33,8 @@ exchange::Message make_ready(const BuiltVehicle& vehicle, const Account& account
   ready.header["role"] = "solid";
   ready.header["body"] = "vehicle";
   ready.header["stable_step"] = vehicle.body->stable_step();
-  ready.header["can_subdivide"] = true;
+  // How long two bodies stay apart is worked out from speeds that go on as they are: not those of a body that turns.
+  ready.header["can_subdivide"] = !vehicle.body->attitude().has_value();
   ready.header["can_checkpoint"] = true;
   ready.header["time"] = time;
   for (const AccountEntry& entry : account_entries) ready.header["account"].push_back(std::string(entry.name));

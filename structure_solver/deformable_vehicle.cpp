@@ -12,10 +12,11 @@ namespace {
 
 constexpr std::size_t node_chunk = 4096;
 
-continuum::ExplicitSolid make_body(const geometry::VehicleMesh& mesh, const continuum::Law& law, double speed) {
+continuum::ExplicitSolid make_body(const geometry::VehicleMesh& mesh, const continuum::Law& law, const Launch& launch) {
   continuum::ExplicitSolid solid = continuum::make_solid("vehicle", mesh.hexahedra, law);
+  const Eigen::Vector3d velocity = launch.velocity();
   for (std::size_t i = 0; i < solid.node_count(); ++i) {
-    solid.velocities[3 * i + 2] = speed;
+    for (int c = 0; c < 3; ++c) solid.velocities[3 * i + c] = velocity[c];
     if (mesh.node_flags[i] & geometry::on_plane_x) solid.fixed[i] |= 1;
     if (mesh.node_flags[i] & geometry::on_plane_y) solid.fixed[i] |= 2;
   }
@@ -25,9 +26,9 @@ continuum::ExplicitSolid make_body(const geometry::VehicleMesh& mesh, const cont
 }  // namespace
 
 DeformableVehicle::DeformableVehicle(const geometry::VehicleMesh& mesh, const continuum::Law& law, const Launch& launch)
-    : solid_(make_body(mesh, law, launch.speed)),
+    : solid_(make_body(mesh, law, launch)),
       hull_nodes_(mesh.hull_nodes),
-      probe_(solid_, launch.nose_position, launch.length, launch.element_size),
+      probe_(solid_, launch),
       gravity_(launch.gravity),
       weight_(3 * solid_.node_count(), 0.0) {
   for (std::size_t i = 0; i < solid_.node_count(); ++i) {

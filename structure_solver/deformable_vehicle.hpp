@@ -1,19 +1,11 @@
 #pragma once
 #include "core/continuum/explicit_solid.hpp"
 #include "geometry/vehicle/vehicle_mesh.hpp"
+#include "structure_solver/launch.hpp"
 #include "structure_solver/stress_probe.hpp"
 #include "structure_solver/vehicle_body.hpp"
 
 namespace polynya::structure {
-
-/// What a vehicle starts with.
-struct Launch {
-  double speed = 0;          ///< m/s, upward
-  double gravity = 0;        ///< m/s^2, downward
-  double nose_position = 0;  ///< m
-  double length = 0;         ///< m
-  double element_size = 0;   ///< m
-};
 
 /// A flow that is started does not quite keep the pressure it starts with, least behind a flat base, and a body that
 /// settled under that pressure would ring. So motion relative to the rigid body's is damped, critically for the gravest

@@ -19,7 +19,30 @@ std::vector<results::Column> columns() {
   return all;
 }
 
-results::UnstructuredFields unstructured(const continuum::HexMesh& mesh, VehicleFields&& fields) {
+constexpr const char* attitude_file = "/series/attitude.csv";
+
+std::vector<results::Column> attitude_columns() {
+  std::vector<results::Column> all{{"time", "s"}};
+  const std::pair<const char*, const char*> vectors[] = {{"centre_of_mass", "m"},
+                                                         {"velocity", "m/s"},
+                                                         {"nose_direction", ""},
+                                                         {"angular_velocity", "rad/s"},
+                                                         {"angular_momentum", "kg m^2/s"}};
+  for (const auto& [name, unit] : vectors)
+    for (const char* axis : {"_x", "_y", "_z"}) all.push_back({std::string(name) + axis, unit});
+  return all;
+}
+
+std::vector<double> attitude_row(double time, const Attitude& a) {
+  std::vector<double> row{time};
+  for (const auto* vector : {&a.centre, &a.velocity, &a.nose_direction, &a.angular_velocity, &a.angular_momentum})
+    row.insert(row.end(), vector->begin(), vector->end());
+  return row;
+}
+
+/// Hexahedra, or the triangles of a hull that has none.
+results::UnstructuredFields unstructured(const geometry::VehicleMesh& vehicle, VehicleFields&& fields) {
+  const continuum::HexMesh& mesh = vehicle.hexahedra;
   results::UnstructuredFields grid;
   grid.single_precision = true;
   grid.points = std::move(fields.positions);
@@ -27,6 +50,11 @@ results::UnstructuredFields unstructured(const continuum::HexMesh& mesh, Vehicle
     std::array<std::int64_t, 8> corners;
     for (int k = 0; k < 8; ++k) corners[k] = mesh.elements[8 * e + k];
     grid.add_cell(results::CellType::hexahedron, corners);
+  }
+  for (std::size_t t = 0; mesh.element_count() == 0 && t + 2 < vehicle.hull_triangles.size(); t += 3) {
+    std::array<std::int64_t, 3> corners;
+    for (int k = 0; k < 3; ++k) corners[k] = vehicle.hull_nodes[vehicle.hull_triangles[t + k]];
+    grid.add_cell(results::CellType::triangle, corners);
   }
   grid.point_fields.push_back({"velocity", 3, std::move(fields.velocities)});
   grid.point_fields.push_back({"displacement", 3, std::move(fields.displacements)});
@@ -48,6 +76,7 @@ Output::Output(std::string run_folder, std::string name, double duration, const 
       series_(folder_ + "/series/structure.csv", columns(), opening),
       row_interval_(duration / most_rows) {
   account_ = first_ = vehicle.body->account();
+  if (vehicle.body->attitude()) attitude_.emplace(folder_ + attitude_file, attitude_columns(), opening);
   if (opening == results::Opening::fresh)
     write_row();
   else
@@ -61,6 +90,7 @@ void Output::write_row() {
   const auto stations = vehicle_.body->station_stress();
   row.insert(row.end(), stations.begin(), stations.end());
   series_.append(row);
+  if (attitude_) attitude_->append(attitude_row(time_, *vehicle_.body->attitude()));
   last_row_ = time_;
   while (next_row_ <= time_) next_row_ += row_interval_;
 }
@@ -81,7 +111,7 @@ void Output::record(double time, double step, const Account& account) {
 
 void Output::write_frame(int number, double time) {
   const auto lap = watch_.lap("frames");
-  frames_.write(number, unstructured(vehicle_.mesh.hexahedra, vehicle_.body->fields()), time);
+  frames_.write(number, unstructured(vehicle_.mesh, vehicle_.body->fields()), time);
 }
 
 void Output::close(const results::Waits& waits) {
@@ -114,6 +144,10 @@ nlohmann::json Output::summary() const {
   s["whole_mass"] = vehicle_.whole_mass;
   s["density"] = vehicle_.density;
   s["mass_note"] = vehicle_.mass_note;
+  if (vehicle_.body->attitude()) {
+    s["centre_of_mass"] = vehicle_.centre;
+    s["inertia"] = vehicle_.inertia;
+  }
   s["volume"] = vehicle_.quality.volume;
   s["least_scaled_jacobian"] = vehicle_.quality.least_scaled_jacobian;
   s["greatest_aspect"] = vehicle_.quality.greatest_aspect;

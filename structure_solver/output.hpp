@@ -1,5 +1,6 @@
 #pragma once
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "core/compute/timer.hpp"
@@ -10,8 +11,8 @@
 
 namespace polynya::structure {
 
-/// What a run of the structure solver leaves behind: RUN/fields/vehicle_*.vtkhdf, RUN/series/structure.csv and
-/// RUN/logs/NAME.json; and the figures of its summary.
+/// What a run of the structure solver leaves behind: RUN/fields/vehicle_*.vtkhdf, RUN/series/structure.csv, of a rigid
+/// body that may turn RUN/series/attitude.csv, and RUN/logs/NAME.json; and the figures of its summary.
 class Output {
  public:
   /// The series gets at most about 10,000 rows over `duration` (s).
@@ -31,8 +32,8 @@ class Output {
   compute::Stopwatch& watch() { return watch_; }
 
   POLYNYA_STATE_WITHOUT((folder_, name_, vehicle_, report_, watch_), folder_, name_, vehicle_, report_, watch_, frames_,
-                        series_, row_interval_, next_row_, last_row_, time_, step_, smallest_step_, account_, first_,
-                        peak_stress_, peak_time_, peak_vertex_, steps_)
+                        series_, attitude_, row_interval_, next_row_, last_row_, time_, step_, smallest_step_, account_,
+                        first_, peak_stress_, peak_time_, peak_vertex_, steps_)
 
  private:
   void write_row();
@@ -43,6 +44,7 @@ class Output {
   compute::Stopwatch watch_;
   results::FrameSeries frames_;
   results::TimeSeries series_;
+  std::optional<results::TimeSeries> attitude_;
   double row_interval_, next_row_ = 0, last_row_ = -1;
   double time_ = 0, step_ = 0, smallest_step_ = 1e300;
   Account account_, first_;

@@ -37,6 +37,15 @@ RigidMotion body_of_points(std::span<const double> nodes, std::span<const double
   return body;
 }
 
+void add_point_mass(RigidMotion& body, const PointMass& point) {
+  const double total = body.mass + point.mass;
+  const Eigen::Vector3d arm = point.place - body.centre;
+  const double reduced = body.mass * point.mass / total;
+  body.inertia += reduced * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+  body.centre += point.mass / total * arm;
+  body.mass = total;
+}
+
 void advance(RigidMotion& body, double dt) {
   body.centre += dt * body.velocity;
   if (body.freedom == Freedom::axial) return;

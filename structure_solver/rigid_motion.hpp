@@ -24,6 +24,14 @@ struct RigidMotion {
 /// The body at rest that these points make: nodes [n][3] in m, masses [n] in kg.
 RigidMotion body_of_points(std::span<const double> nodes, std::span<const double> masses);
 
+/// A mass (kg) at a place (m) in space.
+struct PointMass {
+  double mass = 0;
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+};
+/// Fixes a mass to a body at rest in its reference orientation: mass, centre and inertia are those of both together.
+void add_point_mass(RigidMotion& body, const PointMass& point);
+
 /// Moves centre and orientation by one step. The orientation turns by the angular velocity that belongs to the mean of
 /// the body-frame angular momenta before and after: angular momentum and, without torque, energy are kept to rounding.
 void advance(RigidMotion& body, double dt);

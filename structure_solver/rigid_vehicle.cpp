@@ -1,5 +1,9 @@
 #include "structure_solver/rigid_vehicle.hpp"
 
+#include <utility>
+
+#include "structure_solver/torque_free.hpp"
+
 namespace polynya::structure {
 namespace {
 
@@ -21,20 +25,18 @@ Eigen::Vector3d node(const std::vector<double>& coordinates, std::size_t i) {
 
 }  // namespace
 
-RigidVehicle::RigidVehicle(const geometry::VehicleMesh& mesh, std::span<const double> node_masses,
-                           geometry::Portion portion, const Launch& launch)
-    : motion_(body_of_points(mesh.hexahedra.nodes, node_masses)),
-      gravity_(launch.gravity),
-      reference_(mesh.hexahedra.nodes) {
+RigidVehicle::RigidVehicle(std::vector<double> nodes, std::span<const std::int32_t> hull_nodes,
+                           const RigidMotion& at_rest, geometry::Portion portion, const Launch& launch)
+    : motion_(at_rest), gravity_(launch.gravity), reference_(std::move(nodes)), axis_(launch.axis()) {
   motion_.freedom = freedom_of(portion);
-  for (std::size_t i = 0; i < node_masses.size(); ++i) arms_.push_back(node(reference_, i) - motion_.centre);
-  motion_.velocity = {0, 0, launch.speed};
+  for (std::size_t i = 0; 3 * i < reference_.size(); ++i) arms_.push_back(node(reference_, i) - motion_.centre);
+  motion_.velocity = launch.velocity();
   initial_centre_z_ = motion_.centre.z();
-  for (const std::int32_t i : mesh.hull_nodes) hull_arms_.push_back(arms_[i]);
+  for (const std::int32_t i : hull_nodes) hull_arms_.push_back(arms_[i]);
   hull_.resize(hull_arms_.size());
   last_force_.assign(hull_arms_.size(), Eigen::Vector3d::Zero());
   place_hull();
-  push(motion_, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0, 0);
+  set_spin(launch.angular_velocity());
 }
 
 void RigidVehicle::set_spin(const Eigen::Vector3d& angular_velocity) {
@@ -52,7 +54,10 @@ void RigidVehicle::place_hull() {
 
 void RigidVehicle::advance_positions(double dt) {
   const Eigen::Matrix3d before = motion_.orientation;
-  advance(motion_, dt);
+  if (loaded_ || motion_.freedom != Freedom::full)
+    advance(motion_, dt);
+  else
+    advance_torque_free(motion_, dt);
   // Velocities of the hull are the ones that lead from the position before to the present one.
   turn_rate_ = (motion_.orientation - before) / dt;
   place_hull();
@@ -60,11 +65,13 @@ void RigidVehicle::advance_positions(double dt) {
 
 void RigidVehicle::finish_step(std::span<const double> hull_force, double dt_previous, double dt_next) {
   Eigen::Vector3d force(0, 0, -motion_.mass * gravity_), torque = Eigen::Vector3d::Zero();
+  loaded_ = false;
   for (std::size_t v = 0; v < hull_.size(); ++v) {
     const Eigen::Vector3d f = hull_force.empty()
                                   ? Eigen::Vector3d(0, 0, 0)
                                   : Eigen::Vector3d(hull_force[3 * v], hull_force[3 * v + 1], hull_force[3 * v + 2]);
     force += f;
+    loaded_ |= !f.isZero(0);
     torque += (hull_[v] - motion_.centre).cross(f);
     work_ += 0.5 * dt_previous * (last_force_[v] + f).dot(hull_velocity(v));
     last_force_[v] = f;
@@ -112,10 +119,17 @@ VehicleFields RigidVehicle::fields() const {
   return f;
 }
 
+std::optional<Attitude> RigidVehicle::attitude() const {
+  if (motion_.freedom == Freedom::axial) return std::nullopt;
+  const auto three = [](const Eigen::Vector3d& v) { return std::array<double, 3>{v.x(), v.y(), v.z()}; };
+  return Attitude{three(motion_.centre), three(motion_.velocity), three(motion_.orientation * axis_),
+                  three(angular_velocity(motion_)), three(motion_.angular_momentum)};
+}
+
 void RigidVehicle::list_state(compute::StateArchive& archive) {
   // All members, so that a new one does not compile until it is looked at here; the rest is the mesh's.
   [[maybe_unused]] auto& [motion, gravity, initial_centre_z, work, gravity_impulse, reference, arms, hull_arms, hull,
-                          last_force, turn_rate] = *this;
+                          last_force, axis, loaded, turn_rate] = *this;
   [[maybe_unused]] auto& [freedom, mass, inertia, centre, orientation, velocity, angular_momentum, kinetic_energy,
                           step_change] = motion;
   const auto numbers = [&](const char* name, auto& matrix) {
@@ -132,6 +146,7 @@ void RigidVehicle::list_state(compute::StateArchive& archive) {
   numbers("angular_momentum", angular_momentum), numbers("turn_rate", turn_rate);
   archive.item("kinetic_energy", kinetic_energy), archive.item("step_change", step_change);
   archive.item("work", work), archive.item("gravity_impulse", gravity_impulse);
+  archive.item("loaded", loaded);
   points("hull", hull), points("last_force", last_force);
 }
 

@@ -6,13 +6,14 @@
 
 namespace polynya::structure {
 
-/// A vehicle that does not deform: mass and inertia of the mesh's lumped masses.
+/// A vehicle that does not deform. While something touches it a step keeps angular momentum and energy (advance());
+/// without loads ARKODE turns it (advance_torque_free()).
 class RigidVehicle final : public VehicleBody {
  public:
-  /// node_masses: kg, of the mesh's nodes. Portion full: six degrees of freedom; half: x, z and turning about y;
-  /// quarter: z.
-  RigidVehicle(const geometry::VehicleMesh& mesh, std::span<const double> node_masses, geometry::Portion portion,
-               const Launch& launch);
+  /// nodes: [n][3], m, placed as the launch says, and which of them are the hull's. at_rest: mass, centre and inertia
+  /// of the body in that place. Portion full: six degrees of freedom; half: x, z and turning about y; quarter: z.
+  RigidVehicle(std::vector<double> nodes, std::span<const std::int32_t> hull_nodes, const RigidMotion& at_rest,
+               geometry::Portion portion, const Launch& launch);
 
   void settle(std::span<const double>) override {}
   void advance_positions(double dt) override;
@@ -24,6 +25,7 @@ class RigidVehicle final : public VehicleBody {
   std::size_t hull_vertices() const override { return hull_arms_.size(); }
   void hull_motion(std::span<double> positions, std::span<double> velocities) const override;
   VehicleFields fields() const override;
+  std::optional<Attitude> attitude() const override;
 
   void list_state(compute::StateArchive& archive) override;
 
@@ -41,6 +43,8 @@ class RigidVehicle final : public VehicleBody {
   Points arms_, hull_arms_;                              ///< from the centre, body frame, m
   Points hull_;                                          ///< m, at t(n)
   Points last_force_;                                    ///< N, of t(n-1)
+  Eigen::Vector3d axis_;                                 ///< direction of the nose in the reference orientation
+  bool loaded_ = false;                                  ///< by the last loads
   Eigen::Matrix3d turn_rate_ = Eigen::Matrix3d::Zero();  ///< 1/s, change of the orientation in the last step over dt
 };
 

@@ -9,12 +9,14 @@ namespace {
 constexpr double tip_depth = 2e-3;           // m, the head stress of the paper's figures
 constexpr double least_slice_half = 0.5e-3;  // m
 
-std::vector<double> element_depths(const continuum::ExplicitSolid& solid, double nose_position) {
+std::vector<double> element_depths(const continuum::ExplicitSolid& solid, const Launch& launch) {
   std::vector<double> depths(solid.element_count());
+  const Eigen::Vector3d nose = launch.nose(), axis = launch.axis();
   for (std::size_t e = 0; e < depths.size(); ++e) {
-    double z = 0;
-    for (int corner = 0; corner < 8; ++corner) z += solid.mesh.nodes[3 * solid.mesh.elements[8 * e + corner] + 2];
-    depths[e] = nose_position - 0.125 * z;
+    Eigen::Vector3d sum(0, 0, 0);
+    for (int corner = 0; corner < 8; ++corner)
+      sum += Eigen::Vector3d::Map(&solid.mesh.nodes[3 * solid.mesh.elements[8 * e + corner]]);
+    depths[e] = (nose - 0.125 * sum).dot(axis);
   }
   return depths;
 }
@@ -37,14 +39,13 @@ double volume_average(const continuum::ExplicitSolid& solid, const std::vector<s
 
 }  // namespace
 
-StressProbe::StressProbe(const continuum::ExplicitSolid& solid, double nose_position, double length,
-                         double element_size) {
-  const std::vector<double> depths = element_depths(solid, nose_position);
+StressProbe::StressProbe(const continuum::ExplicitSolid& solid, const Launch& launch) {
+  const std::vector<double> depths = element_depths(solid, launch);
   const double first = *std::min_element(depths.begin(), depths.end());
   head_ = within(depths, -1e300, std::max(tip_depth, first * (1 + 1e-9)));
-  const double half = std::max(least_slice_half, 0.5 * element_size) * (1 + 1e-9);
+  const double half = std::max(least_slice_half, 0.5 * launch.element_size) * (1 + 1e-9);
   for (int s = 0; s < station_count; ++s) {
-    const double station = length * s / (station_count - 1);
+    const double station = launch.length * s / (station_count - 1);
     double nearest = 1e300;
     for (const double depth : depths) nearest = std::min(nearest, std::abs(depth - station));
     const double reach = std::max(half, nearest * (1 + 1e-9));

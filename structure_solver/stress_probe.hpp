@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/continuum/explicit_solid.hpp"
+#include "structure_solver/launch.hpp"
 #include "structure_solver/vehicle_body.hpp"
 
 namespace polynya::structure {
@@ -17,8 +18,8 @@ namespace polynya::structure {
 class StressProbe {
  public:
   StressProbe() = default;
-  /// Depths in m; nose_position is the z of the nose in the mesh.
-  StressProbe(const continuum::ExplicitSolid& solid, double nose_position, double length, double element_size);
+  /// Of a mesh that is placed as the launch says.
+  StressProbe(const continuum::ExplicitSolid& solid, const Launch& launch);
 
   double head_average(const continuum::ExplicitSolid& solid) const;                         ///< Pa
   double head_maximum(const continuum::ExplicitSolid& solid) const;                         ///< Pa

@@ -4,8 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "structure_solver/rigid_motion.hpp"
-
 namespace polynya::structure {
 namespace {
 
@@ -19,7 +17,6 @@ nlohmann::json rows_of_three(const std::vector<T>& values) {
 }  // namespace
 
 void write_surface(const std::string& path, const BuiltVehicle& vehicle) {
-  const RigidMotion body = body_of_points(vehicle.mesh.hexahedra.nodes, vehicle.node_masses);
   std::vector<double> positions, masses;
   for (const std::int32_t node : vehicle.mesh.hull_nodes) {
     masses.push_back(vehicle.node_masses[node]);
@@ -30,10 +27,9 @@ void write_surface(const std::string& path, const BuiltVehicle& vehicle) {
   surface["ids"] = vehicle.mesh.hull_nodes;
   surface["masses"] = masses;
   surface["triangles"] = rows_of_three(vehicle.mesh.hull_triangles);
-  surface["mass"] = body.mass;
-  surface["centre_of_mass"] = {body.centre.x(), body.centre.y(), body.centre.z()};
-  for (int r = 0; r < 3; ++r)
-    surface["inertia"].push_back({body.inertia(r, 0), body.inertia(r, 1), body.inertia(r, 2)});
+  surface["mass"] = vehicle.mass;
+  surface["centre_of_mass"] = vehicle.centre;
+  surface["inertia"] = vehicle.inertia;
   std::ofstream file(path);
   file << surface.dump() << '\n';
   file.close();

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -63,6 +64,14 @@ struct VehicleFields {
   std::vector<double> stress;                                ///< [e][6], xx, yy, zz, xy, yz, zx, Pa
 };
 
+/// Where a rigid body is and how it moves: centre and nose at t(n), rates of (n+1/2); in space.
+struct Attitude {
+  std::array<double, 3> centre{}, velocity{};  ///< m, m/s
+  std::array<double, 3> nose_direction{};      ///< unit vector
+  std::array<double, 3> angular_velocity{};    ///< rad/s
+  std::array<double, 3> angular_momentum{};    ///< kg m^2/s, about the centre
+};
+
 /// Number of stations along the axis: 0, 20, ... 100 % of the length.
 inline constexpr int station_count = 6;
 
@@ -89,6 +98,8 @@ class VehicleBody {
   /// Positions at t(n+1) and velocities of (n+1/2) of the hull's vertices, [hull vertices][3].
   virtual void hull_motion(std::span<double> positions, std::span<double> velocities) const = 0;
   virtual VehicleFields fields() const = 0;
+  /// Of a rigid body that may turn.
+  virtual std::optional<Attitude> attitude() const { return std::nullopt; }
 
   /// What the body remembers from step to step, between steps.
   virtual void list_state(compute::StateArchive& archive) = 0;

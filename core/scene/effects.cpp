@@ -120,8 +120,9 @@ const std::vector<Rule>& rules() {
   static const std::vector<Rule> list{
       {"deformable_vehicle",
        [](const Scene& s) {
-         return s.vehicle ? Decision{true, "the hull is modelled by finite elements"}
-                          : impossible("the scene has no vehicle");
+         if (!s.vehicle) return impossible("the scene has no vehicle");
+         if (s.vehicle->surface) return impossible("a hull from a file is rigid in this version");
+         return Decision{true, "the hull is modelled by finite elements"};
        },
        [](Scene& s) {
          if (s.vehicle) s.vehicle->deformable = false;

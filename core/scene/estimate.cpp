@@ -39,6 +39,7 @@ double smallest(const std::vector<double>& line) {
 /// The hull's elements: square of size vehicle_element on the surface; one layer of a wall, or filled through.
 void add_vehicle(const Scene& scene, Estimate& e) {
   const auto& v = *scene.vehicle;
+  if (v.surface) return;
   const double size = scene.resolution.vehicle_element, fraction = modelled_fraction(scene.symmetry);
   const double around = std::max(8.0, pi * v.diameter / size);
   const double through = v.interior == "solid" ? std::max(2.0, 0.25 * v.diameter / size) : 1;

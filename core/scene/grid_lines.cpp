@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "core/scene/graded_line.hpp"
+#include "core/scene/vehicle_shape.hpp"
 
 namespace polynya::scene {
 namespace {
@@ -55,7 +56,7 @@ std::vector<double> vertical_line(const Scene& scene) {
   const double anchor = scene.ice ? scene.ice->lower_face : fluid.waterline;
   double fine_bottom = fluid.bottom;
   if (scene.vehicle) {
-    const double tail = scene.vehicle->nose_position - scene.vehicle->length;
+    const double tail = scene.vehicle->nose_position - lowest_below_nose(*scene.vehicle);
     const double below = std::ceil((anchor - tail) / cell - 1e-9) + cells_below_tail;
     fine_bottom = std::max(fluid.bottom, anchor - below * cell);
   }

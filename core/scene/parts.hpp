@@ -7,6 +7,12 @@
 namespace polynya::scene {
 
 Vehicle read_vehicle(const Values& values);
+/// Fills in the hull of a file and its box (needs the scene's folder for its path); vehicle without a file: nothing.
+void read_hull_file(const Values& values, Vehicle& vehicle);
+/// The smallest symmetry that the start of the vehicle allows: quarter unless it lies or moves askew.
+Symmetry natural_symmetry(const Values& values);
+/// Point masses; refuses what the symmetry or a deformable vehicle does not allow. Needs place and effects.
+void check_start(const Values& values, const Scene& scene);
 /// Checks the hull against its material; needs the card.
 void check_hull(const Values& values, const Vehicle& vehicle, const MaterialCard& card);
 Ice read_ice(const Values& values);

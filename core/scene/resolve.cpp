@@ -139,7 +139,7 @@ Symmetry symmetry_of(const Values& values, const std::string& wish_for_effect) {
     return Symmetry::full;
   }
   if (wish_for_effect == "off") return Symmetry::full;
-  if (name == "auto") return Symmetry::quarter;
+  if (name == "auto") return values.has("vehicle") ? natural_symmetry(values) : Symmetry::quarter;
   return name == "full" ? Symmetry::full : name == "half" ? Symmetry::half : Symmetry::quarter;
 }
 
@@ -223,6 +223,7 @@ Scene resolve(const std::filesystem::path& path, const ResolveOptions& options) 
   }
   if (!scene.vehicle && !scene.ice && !scene.fluid)
     values.fail("effects.fluid", "without the fluid nothing is left of the scene; allowed here: auto, on");
+  if (scene.vehicle) check_start(values, scene);
   drop_unused_materials(scene);
   read_participants(values, scene);
   read_record(values, scene);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/scene/parts.hpp"
+#include "core/scene/vehicle_shape.hpp"
 
 namespace polynya::scene {
 namespace {
@@ -34,7 +35,8 @@ double end_time(const Values& values, const Scene& scene, double surface) {
     values.fail("run.end_time",
                 "missing; must be a time such as \"1.5 ms\" (it is only worked out for a moving vehicle and an end "
                 "other than time)");
-  return reserve * expected_way(scene, surface, scene.run.end) / scene.vehicle->speed;
+  const double rise = scene.vehicle->speed * std::cos(scene.vehicle->angle);
+  return reserve * expected_way(scene, surface, scene.run.end) / rise;
 }
 
 void check_end(const Values& values, const Scene& scene) {
@@ -43,6 +45,14 @@ void check_end(const Values& values, const Scene& scene) {
     values.fail("run.end", "needs [vehicle] and [ice]; allowed here is time");
   if (end == "exited" && !(scene.vehicle && (scene.ice || values.has("water"))))
     values.fail("run.end", "needs [vehicle] with [ice] or [water]; allowed here is time");
+}
+
+/// Farthest (m) that the nose comes from the z axis until it is through the ice or the waterline.
+double way_aside(const Scene& scene) {
+  const auto& v = *scene.vehicle;
+  const double end = scene.ice ? scene.ice->lower_face + scene.ice->thickness : v.nose_position;
+  const double x = v.offset_x + std::max(0.0, end - v.nose_position) * std::tan(v.angle);
+  return std::hypot(std::max(std::abs(v.offset_x), std::abs(x)), v.offset_y);
 }
 
 }  // namespace
@@ -78,8 +88,9 @@ void read_resolution(const Values& values, Scene& scene) {
   r.cell = values.number("resolution.cell");
   r.ice_element = values.number("resolution.ice_element", r.cell);
   r.vehicle_element = values.number("resolution.vehicle_element", std::min(r.cell, 0.1 * diameter));
-  r.fine_radius = values.number("resolution.fine_radius", 2 * diameter);
-  r.ice_fine_radius = values.number("resolution.ice_fine_radius", 3 * diameter);
+  const double aside = scene.vehicle ? way_aside(scene) : 0;
+  r.fine_radius = values.number("resolution.fine_radius", 2 * diameter + aside);
+  r.ice_fine_radius = values.number("resolution.ice_fine_radius", 3 * diameter + aside);
   r.growth = values.number("resolution.growth");
   r.largest_ice_element = values.number("resolution.largest_ice_element");
   if (scene.vehicle && r.vehicle_element > scene.vehicle->length)
@@ -146,13 +157,21 @@ void read_fluid(const Values& values, Scene& scene) {
   f.bottom = (scene.ice ? scene.ice->lower_face : f.waterline) - values.number("water.depth");
   f.top = (scene.ice ? scene.ice->lower_face + scene.ice->thickness : f.waterline) + values.number("air.height");
   if (v) {
-    f.bottom = std::min(f.bottom, v->nose_position - v->length - cells_below_tail * cell);
+    f.bottom = std::min(f.bottom, v->nose_position - lowest_below_nose(*v) - cells_below_tail * cell);
     f.top = std::max(f.top, v->nose_position + v->speed * scene.run.end_time + cells_above_nose * cell);
   }
   if (scene.ice && (f.length < scene.ice->length * (1 - 1e-12) || f.width < scene.ice->width * (1 - 1e-12)))
     values.fail(f.length < scene.ice->length ? "fluid.length" : "fluid.width", "must not be below that of the ice");
   if (v && 2 * v->diameter > std::min(f.length, f.width))
     values.fail("fluid.length", "must be at least two vehicle diameters");
+  if (v) {
+    const double tail = v->offset_x - v->length * std::sin(v->angle);
+    const double end = v->offset_x + v->speed * scene.run.end_time * std::sin(v->angle);
+    const double x = std::max({std::abs(v->offset_x), std::abs(tail), std::abs(end)}) + v->diameter;
+    if (2 * x > f.length || 2 * (std::abs(v->offset_y) + v->diameter) > f.width)
+      values.fail(2 * x > f.length ? "fluid.length" : "fluid.width",
+                  "the vehicle would leave the fluid sideways; enlarge it, or lessen vehicle.angle or offset");
+  }
   if (f.waterline <= f.bottom || f.waterline >= f.top)
     values.fail("water.surface", "must lie between bottom and top of the fluid");
   if ((f.top - f.bottom) / cell > largest_cells_across)

@@ -22,7 +22,7 @@ struct Effect {
 struct MaterialCard {
   std::string name;  ///< "ice.paper"
   std::string law;   ///< "elastic", "j2_plastic", "johnson_holmquist_2", "mie_grueneisen", "linear_polynomial",
-                    ///< "ideal_gas", "stiffened_gas", "tait"; docs/scene.md lists the values of each
+                     ///< "ideal_gas", "stiffened_gas", "tait"; docs/scene.md lists the values of each
   std::map<std::string, double> values;       ///< "density", "shear_modulus", ... SI
   std::map<std::string, std::string> origin;  ///< per value: "literature: ...", "calibrated: ...", "assumed: ..."
 
@@ -53,16 +53,33 @@ struct Resolution {
   double largest_ice_element = 0;  ///< m, limit of the growth in the ice
 };
 
+/// The hull of a rigid vehicle from a file; geometry/hull/import_hull.hpp says what happens to it.
+struct HullFile {
+  std::string file;                        ///< full path
+  double unit = 0;                         ///< m per unit of the file
+  std::string nose;                        ///< direction of the nose in the file: "x", "-x", "y", "-y", "z" or "-z"
+  std::string repair;                      ///< "none", "safe" or "wrap"
+  double wrap_alpha = 0, wrap_offset = 0;  ///< m; 0: from the size
+  double volume = 0;                       ///< m^3, of the material
+  std::string note;                        ///< what was found and done, whole sentences
+};
+
 struct Vehicle {
-  std::string head;                                  ///< "ogive", "hemisphere", "ellipsoid"
+  std::string head;                                  ///< "ogive", "hemisphere", "ellipsoid"; "imported": of `surface`
   double head_length = 0, diameter = 0, length = 0;  ///< m
   std::string interior;                              ///< "solid" or "hollow"
   double wall_thickness = 0;  ///< m; 0: from mass (hollow). Never both 0 when hollow, never both given.
   double mass = 0;            ///< kg of the full vehicle; 0: from the material's density (solid) or the wall (hollow).
                               ///< A solid vehicle with a mass gets the density mass / volume.
   std::string material;       ///< key into Scene::materials
-  double speed = 0;           ///< m/s, upward
+  double speed = 0;           ///< m/s, along its axis, nose first
   double nose_position = 0;   ///< m, z of the nose at the start
+  double angle = 0;           ///< rad, of the axis from the vertical towards +x
+  double offset_x = 0, offset_y = 0;  ///< m, of the nose at the start
+  double spin = 0;                    ///< rad/s, about the axis, right-handed about the direction of the nose
+  double pitch_rate = 0;              ///< rad/s, about +y: of the nose towards +x
+  std::vector<double> ballast;        ///< [n][4]: kg, and m from the nose of the upright vehicle; of a rigid one
+  std::optional<HullFile> surface;    ///< then length and diameter are those of its box
   bool deformable = true;
 };
 

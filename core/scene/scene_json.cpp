@@ -28,12 +28,23 @@ void members(Part& p, Visit&& visit) {
 }
 
 template <class Part, class Visit>
+requires std::is_same_v<std::remove_const_t<Part>, HullFile>
+void members(Part& p, Visit&& visit) {
+  visit("file", p.file), visit("unit", p.unit), visit("nose", p.nose), visit("repair", p.repair);
+  visit("wrap_alpha", p.wrap_alpha), visit("wrap_offset", p.wrap_offset), visit("volume", p.volume);
+  visit("note", p.note);
+}
+
+template <class Part, class Visit>
 requires std::is_same_v<std::remove_const_t<Part>, Vehicle>
 void members(Part& p, Visit&& visit) {
   visit("head", p.head), visit("head_length", p.head_length), visit("diameter", p.diameter);
   visit("length", p.length), visit("interior", p.interior), visit("wall_thickness", p.wall_thickness);
   visit("mass", p.mass), visit("material", p.material), visit("speed", p.speed);
   visit("nose_position", p.nose_position), visit("deformable", p.deformable);
+  visit("angle", p.angle), visit("offset_x", p.offset_x), visit("offset_y", p.offset_y);
+  visit("spin", p.spin), visit("pitch_rate", p.pitch_rate);
+  visit("ballast", p.ballast), visit("surface", p.surface);
 }
 
 template <class Part, class Visit>

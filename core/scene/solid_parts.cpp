@@ -36,19 +36,28 @@ double head_length(const Values& values, const Vehicle& v) {
   return length;
 }
 
+void read_start(const Values& values, Vehicle& v) {
+  v.angle = values.number("vehicle.angle");
+  v.offset_x = values.number("vehicle.offset_x"), v.offset_y = values.number("vehicle.offset_y");
+  v.spin = values.number("vehicle.spin"), v.pitch_rate = values.number("vehicle.pitch_rate");
+}
+
 }  // namespace
 
 Vehicle read_vehicle(const Values& values) {
   Vehicle v;
+  v.speed = values.number("vehicle.speed");
+  v.mass = values.number("vehicle.mass");
+  v.material = values.text("vehicle.material");
+  read_start(values, v);
+  read_hull_file(values, v);
+  if (v.surface) return v;
   v.head = values.text("vehicle.head");
   v.diameter = values.number("vehicle.diameter");
   v.length = values.number("vehicle.length");
   v.head_length = head_length(values, v);
   v.interior = values.text("vehicle.interior");
   v.wall_thickness = values.number("vehicle.wall_thickness");
-  v.mass = values.number("vehicle.mass");
-  v.material = values.text("vehicle.material");
-  v.speed = values.number("vehicle.speed");
   const bool hollow = v.interior == "hollow";
   if (!hollow && v.wall_thickness > 0)
     values.fail("vehicle.wall_thickness", "a solid vehicle has no wall; set interior = \"hollow\"");
@@ -63,7 +72,7 @@ Vehicle read_vehicle(const Values& values) {
 }
 
 void check_hull(const Values& values, const Vehicle& v, const MaterialCard& card) {
-  if (v.mass == 0) return;
+  if (v.mass == 0 || v.surface) return;
   const double density = card.value("density"), solid = density * hull_volume(v);
   if (v.interior == "solid") {
     if (std::abs(v.mass / solid - 1) > solid_mass_tolerance)
@@ -82,8 +91,9 @@ void check_hull(const Values& values, const Vehicle& v, const MaterialCard& card
 void place_vehicle(const Values& values, Scene& scene) {
   auto& v = *scene.vehicle;
   const double ceiling = scene.ice ? scene.ice->lower_face : waterline(values, scene);
-  v.nose_position = values.number("vehicle.nose_position", ceiling - default_nose_gap);
-  if (scene.ice && v.nose_position >= ceiling)
+  const double rise = highest_above_nose(v);
+  v.nose_position = values.number("vehicle.nose_position", ceiling - default_nose_gap - rise);
+  if (scene.ice && v.nose_position + rise >= ceiling)
     values.fail("vehicle.nose_position", "the vehicle would start inside the ice; must be below ice.lower_face");
   if (!scene.ice) return;
   if (scene.ice->bending)

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -22,6 +23,10 @@ class Values {
   std::string text(const std::string& path) const;
   /// True if the file has the table.
   bool has(const std::string& table) const { return document_.tables.contains(table); }
+  /// True if the file has the key.
+  bool is_given(const std::string& path) const { return document_.values.contains(path); }
+  /// Where relative paths of the scene start.
+  std::filesystem::path folder() const { return document_.file.parent_path(); }
   /// Throws SceneError: place, key and value, then `what`.
   [[noreturn]] void fail(const std::string& path, const std::string& what) const;
 

@@ -24,6 +24,7 @@ double revolved_volume(const Vehicle& vehicle, double wall, double end) {
 
 double hull_radius(const Vehicle& vehicle, double s) {
   const double radius = 0.5 * vehicle.diameter, head = vehicle.head_length;
+  if (vehicle.surface) return s < 0 ? 0 : radius;
   if (s <= 0) return 0;
   if (s >= head) return radius;
   const double ahead = head - s;
@@ -32,6 +33,21 @@ double hull_radius(const Vehicle& vehicle, double s) {
     return std::sqrt(arc * arc - ahead * ahead) + radius - arc;
   }
   return radius * std::sqrt(1 - (ahead / head) * (ahead / head));
+}
+
+double highest_above_nose(const Vehicle& vehicle) {
+  constexpr int steps = 1000;
+  double highest = 0;
+  for (int i = 0; i <= steps; ++i) {
+    const double s = vehicle.length * i / steps;
+    highest =
+        std::max(highest, hull_radius(vehicle, s) * std::abs(std::sin(vehicle.angle)) - s * std::cos(vehicle.angle));
+  }
+  return highest;
+}
+
+double lowest_below_nose(const Vehicle& vehicle) {
+  return vehicle.length * std::cos(vehicle.angle) + 0.5 * vehicle.diameter * std::abs(std::sin(vehicle.angle));
 }
 
 double thickest_wall(const Vehicle& vehicle) {

@@ -4,8 +4,12 @@
 namespace polynya::scene {
 
 /// Radius of the vehicle (m) at a distance behind the nose (m). Ogive: tangent ogive, an arc that meets the cylinder
-/// smoothly; ellipsoid and hemisphere: quarter ellipse.
+/// smoothly; ellipsoid and hemisphere: quarter ellipse. Of a hull from a file: half of its largest extent across.
 double hull_radius(const Vehicle& vehicle, double distance_from_nose);
+
+/// How far (m) the vehicle at its start reaches above its nose, and below it: its angle lifts the edge of a blunt head.
+double highest_above_nose(const Vehicle& vehicle);
+double lowest_below_nose(const Vehicle& vehicle);
 
 /// Thickest wall (m) that leaves a cavity: 0.9 of the radius and of the sharpest curvature of the head's outline.
 double thickest_wall(const Vehicle& vehicle);
