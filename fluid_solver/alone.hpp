@@ -23,10 +23,11 @@ struct CourseAlone {
 template <class Series, class After>
 void run_alone(const scene::Scene& scene, Fluid& fluid, Output& output, const results::Checkpoints& checkpoints,
                Series& series, After&& after_step) {
-  const double end = scene.run.end_time, interval = scene.run.frame_interval > 0 ? scene.run.frame_interval : end;
+  const double end = scene.run.end_time, interval = scene.run.frame_interval;
   CourseAlone<Series> course{fluid, 1, series, output};
   if (checkpoints.resuming()) {
     if (const std::string remark = checkpoints.load(course); !remark.empty()) spdlog::warn("{}", remark);
+    output.go_on(fluid);
     spdlog::info("goes on at t = {:.6e} s, step {}", fluid.time, fluid.steps);
   } else {
     output.start(fluid);
