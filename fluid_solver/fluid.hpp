@@ -26,8 +26,8 @@ namespace polynya::fluid {
 
 inline constexpr int water = 0, air = 1;
 
-/// Shock viscosity away from solids: that of the reference in all compression, or only in compression that is not
-/// smooth.
+/// Shock viscosity away from solids: that of the reference in all compression, or its linear part only in compression
+/// that is not smooth.
 enum class ShockViscosity { reference, limited };
 
 /// The remap goes axis by axis: orders in turns from step to step, or in every step the mean of all orders, which costs
