@@ -47,6 +47,7 @@ void run_alone(const scene::Scene& scene, Fluid& fluid, Output& output, const re
     if (!schedule.due(fluid.time) || !checkpoints.active() || end - fluid.time < 1.5 * dt) continue;
     const auto lap = fluid.watch.lap("checkpoints");
     schedule.taken(fluid.time);
+    check_state(fluid);  // nobody could go on from a state without meaning
     checkpoints.save(results::checkpoint_folder(fluid.steps), fluid.steps, fluid.time, course);
     results::commit_checkpoint(output.folder(), fluid.steps, fluid.time, {checkpoints.file()});
   }

@@ -154,6 +154,7 @@ void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant&
     if (span.header.value("finish", false)) break;
     if (const auto folder = span.header.value("checkpoint", std::string{}); !folder.empty() && checkpoints.active()) {
       const auto lap = fluid.watch.lap("checkpoints");
+      check_state(fluid);  // nobody could go on from a state without meaning
       checkpoints.save(folder, fluid.steps, fluid.time, course);
     }
   }
