@@ -270,8 +270,8 @@ void keep_books(Run& run, double acting_time) {
 void give_loads(Run& run, bool span_ends, long frame) {
   const double next = next_step(run.limits, run.planned_step, run.keeper.step);
   const double length = next_length(run, next, span_ends);
-  // A free window may have been cut to the end of the run, which may come later when the run goes on.
-  if (length > next) run.checkpoint.clear();
+  // In a free window the solids are past the time of the coupler when they would write.
+  if (length > next || run.fitted_to_end) run.checkpoint.clear();
   const double acting_time = run.keeper.acting_time(next);
   {
     const auto lap = run.watch.lap("fluid_loads");

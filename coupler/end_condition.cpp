@@ -32,8 +32,8 @@ std::string end_reason(const scene::Scene& scene, double time, double nose, doub
   return nose >= last_nose_position(scene) ? scene.run.end : std::string{};
 }
 
-double time_to_end(const scene::Scene& scene, double time, double nose, double speed) {
-  double left = scene.run.end_time - time;
+double time_to_event(const scene::Scene& scene, double nose, double speed) {
+  double left = infinity;
   if (stopping_ends(scene) && scene.run.gravity > 0) left = std::min(left, std::max(0.0, speed) / scene.run.gravity);
   if (speed > 0) left = std::min(left, (last_nose_position(scene) - nose) / speed);
   return std::max(0.0, left);

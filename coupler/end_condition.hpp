@@ -14,7 +14,7 @@ namespace polynya::coupler {
 /// A vehicle without ice and water ends by time alone.
 std::string end_reason(const scene::Scene& scene, double time, double nose, double speed);
 
-/// Time (s) until that can change when nothing but weight acts on the vehicle.
-double time_to_end(const scene::Scene& scene, double time, double nose, double speed);
+/// Time (s) until that can change for another reason than "time" when nothing but weight acts on the vehicle.
+double time_to_event(const scene::Scene& scene, double nose, double speed);
 
 }  // namespace polynya::coupler

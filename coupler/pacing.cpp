@@ -37,14 +37,15 @@ void suggest_threads(Run& run, const std::string& name, int threads) {
     if (side.name == name) side.new_threads = threads;
 }
 
-/// How long nothing can act between the participants, s: without fluid until the solids may touch.
+/// How long nothing can act between the participants, s: without fluid until the solids may touch. The latest end of
+/// the run aside.
 double quiet_time(Run& run) {
   const SolidSide* vehicle = run.conversation.find(Body::vehicle);
   const SolidSide* ice = run.conversation.find(Body::ice);
   if (run.conversation.fluid || !vehicle || !ice || !vehicle->can_subdivide || !ice->can_subdivide) return 0;
   const double until_frame = run.next_frame_time - run.keeper.time;
-  const double until_end = time_to_end(run.scene, run.keeper.time, run.monitor->nose(), run.monitor->speed());
-  return std::min({time_apart(*vehicle, *ice, run.scene.run.gravity), until_frame, until_end});
+  const double until_event = time_to_event(run.scene, run.monitor->nose(), run.monitor->speed());
+  return std::min({time_apart(*vehicle, *ice, run.scene.run.gravity), until_frame, until_event});
 }
 
 /// The fluid's first answer comes at the end of span 1. Until then its pressure at time 0 acts on.
@@ -99,11 +100,15 @@ void bound_lag(Run& run, const geometry::CutCells& cells) {
 }
 
 double next_length(Run& run, double step, bool span_ends) {
-  const double quiet = span_ends ? quiet_time(run) : 0.0;
+  const double quiet = span_ends ? quiet_time(run) : 0.0,
+               left = std::max(0.0, run.scene.run.end_time - run.keeper.time);
   if (quiet < least_free_window * step) return step;
+  // With a later end this window would be longer, and all that follows another.
+  run.fitted_to_end = run.fitted_to_end || left < quiet;
+  if (left < least_free_window * step) return step;
   run.keeper.windows_left = 1;
   ++run.keeper.free_windows;
-  return quiet;
+  return std::min(quiet, left);
 }
 
 void begin_balance(Run& run, const std::vector<std::string>& names) {

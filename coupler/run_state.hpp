@@ -45,6 +45,8 @@ struct Run {
   results::Checkpoints checkpoints;
   results::CheckpointSchedule schedule;
   std::string checkpoint;  ///< folder of the checkpoint that belongs to the window at work; empty: none
+  bool fitted_to_end =
+      false;  ///< a window was cut to the latest end: no checkpoints from here on, a later end may come
   /// Written by the coupler, and by the others as far as they have answered since.
   struct Pending {
     long window;
@@ -62,11 +64,12 @@ struct Run {
         schedule(s.checkpoint.interval, s.checkpoint.wall_interval, 0) {}
 
   /// Between windows.
-  POLYNYA_STATE_WITHOUT((scene, folder, watch, balance, span_began, checkpoints, schedule, checkpoint, pending), scene,
-                        folder, conversation, watch, keeper, limits, ledger, ledger_file, work, contact,
+  POLYNYA_STATE_WITHOUT((scene, folder, watch, balance, span_began, checkpoints, schedule, checkpoint, fitted_to_end,
+                         pending),
+                        scene, folder, conversation, watch, keeper, limits, ledger, ledger_file, work, contact,
                         topology_changed, overlap, monitor, planned_step, first_planned_step, next_frame_time,
                         logged_lag_limit, slowest_answer, step_warned, frame, cuts, end, balance, span_began,
-                        span_window, checkpoints, schedule, checkpoint, pending)
+                        span_window, checkpoints, schedule, checkpoint, fitted_to_end, pending)
 
   contact::ContactLaw contact_law(const contact::Body& vehicle, const contact::Body& ice) const {
     contact::ContactLaw law;

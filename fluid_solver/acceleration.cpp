@@ -1,10 +1,10 @@
-// New velocities of nodes: the predicted pressure by the adjoint of the face average, weight as the faces carry it, and
-// a viscosity against hourglass modes: the part of a full cell's eight corner velocities that no linear field can be.
-// That viscosity scales with density times (0.002 c + 0.1 |u|): with density times c it would inflate the added mass.
+// New velocities of nodes: predicted pressure and weight (node_forces.hpp), and a viscosity against hourglass modes:
+// the part of a full cell's eight corner velocities that no linear field can be. That viscosity scales with density
+// times (0.002 c + 0.1 |u|): with density times c it would inflate the added mass.
 #include <algorithm>
 
+#include "fluid_solver/node_forces.hpp"
 #include "fluid_solver/phases.hpp"
-#include "fluid_solver/row_geometry.hpp"
 
 namespace polynya::fluid {
 namespace {
@@ -41,57 +41,57 @@ void edge_forces(const double* u, const double* coefficient, Span cells, std::pt
   }
 }
 
-/// Energy that the hourglass viscosity has taken, and kinetic energy of the new velocities, J.
-struct Energies {
+/// Energy that the hourglass viscosity has taken, kinetic energy of the new velocities, J, and what nodes that are held
+/// would have taken up, N s.
+struct Accelerated {
   double dissipated = 0, kinetic = 0;
+  std::array<double, 3> held{};
+
+  void add(const Accelerated& other) {
+    dissipated += other.dissipated;
+    kinetic += other.kinetic;
+    for (int d = 0; d < 3; ++d) held[d] += other.held[d];
+  }
 };
 
-/// Geometry of the rows of faces around a row of nodes.
-template <class Row>
-struct Around {
-  Row own, y, z, yz;
-  Around(const Fluid& fluid, int j, int k)
-      : own(fluid, j, k), y(fluid, j - 1, k), z(fluid, j, k - 1), yz(fluid, j - 1, k - 1) {}
-};
-
-template <class Row>
-Energies accelerate_row(Fluid& fluid, double dt, int j, int k, Span nodes, const std::array<double*, 3>& hourglass) {
-  const Grid& grid = fluid.grid;
-  const std::ptrdiff_t sy = grid.sy, sz = grid.sz, row = grid.at(0, j, k);
-  const Around<Row> at(fluid, j, k);
+/// Nodes of a row. With `some_held` those that are not `moving`, beside sleeping cells, stay at rest.
+template <class Row, bool some_held>
+Accelerated accelerate_row(Fluid& fluid, double dt, int j, int k, Span nodes, Span moving,
+                           const std::array<double*, 3>& hourglass) {
+  const NodeForces<Row> force(fluid, j, k);
+  const std::ptrdiff_t row = fluid.grid.at(0, j, k);
   const double *m = row_mass(fluid, j, k), *my = row_mass(fluid, j - 1, k), *mz = row_mass(fluid, j, k - 1),
                *myz = row_mass(fluid, j - 1, k - 1);
-  const double *p = fluid.predicted_pressure.data() + row, *rho = fluid.density.data() + row;
   const double *u = fluid.velocity[0].data() + row, *v = fluid.velocity[1].data() + row,
                *w = fluid.velocity[2].data() + row;
   const double *hx = hourglass[0], *hy = hourglass[1], *hz = hourglass[2];
   double *un = fluid.next_velocity[0].data() + row, *vn = fluid.next_velocity[1].data() + row,
          *wn = fluid.next_velocity[2].data() + row, *mass = fluid.node_mass.data() + row;
-  const double low = 0.5 * fluid.setup.gravity * grid.dz[k - 1], high = 0.5 * fluid.setup.gravity * grid.dz[k];
-  const auto lift = [=](std::ptrdiff_t f) { return p[f - sz] - p[f] - (low * rho[f - sz] + high * rho[f]); };
-  double loss = 0, moving = 0;
-#pragma omp simd reduction(+ : moving, loss)
+  double loss = 0, kinetic = 0, held_x = 0, held_y = 0, held_z = 0;
+#pragma omp simd reduction(+ : kinetic, loss, held_x, held_y, held_z)
   for (std::ptrdiff_t n = nodes.first; n <= nodes.last; ++n) {
-    const std::ptrdiff_t y = n - sy, z = n - sz, yz = n - sy - sz;
     const double node =
         0.125 * (((m[n] + m[n - 1]) + (my[n] + my[n - 1])) + ((mz[n] + mz[n - 1]) + (myz[n] + myz[n - 1])));
-    const double fx = at.own.x(n) * (p[n - 1] - p[n]) + at.y.x(n) * (p[y - 1] - p[y]) + at.z.x(n) * (p[z - 1] - p[z]) +
-                      at.yz.x(n) * (p[yz - 1] - p[yz]);
-    const double fy = at.own.y(n) * (p[n - sy] - p[n]) + at.own.y(n - 1) * (p[n - 1 - sy] - p[n - 1]) +
-                      at.z.y(n) * (p[z - sy] - p[z]) + at.z.y(n - 1) * (p[z - 1 - sy] - p[z - 1]);
-    const double fz =
-        at.own.z(n) * lift(n) + at.own.z(n - 1) * lift(n - 1) + at.y.z(n) * lift(y) + at.y.z(n - 1) * lift(y - 1);
-    const double per_mass = node > 0 ? dt / (node > 0 ? node : 1.0) : 0.0, b = at.own.node(n);
-    const double x_new = u[n] + per_mass * (b * fx + hx[n]), y_new = v[n] + per_mass * (b * fy + hy[n]),
-                 z_new = w[n] + per_mass * (b * fz + hz[n]);
+    const double per_mass = node > 0 ? dt / (node > 0 ? node : 1.0) : 0.0, b = force.own.node(n);
+    const double fx = b * force.x(n) + hx[n], fy = b * force.y(n) + hy[n], fz = b * force.z(n) + hz[n];
+    double x_new = u[n] + per_mass * fx, y_new = v[n] + per_mass * fy, z_new = w[n] + per_mass * fz;
+    if (some_held) {
+      const bool moves = n >= moving.first && n <= moving.last;
+      held_x += moves ? 0.0 : dt * fx;
+      held_y += moves ? 0.0 : dt * fy;
+      held_z += moves ? 0.0 : dt * fz;
+      x_new = moves ? x_new : 0.0;
+      y_new = moves ? y_new : 0.0;
+      z_new = moves ? z_new : 0.0;
+    }
     un[n] = x_new;
     vn[n] = y_new;
     wn[n] = z_new;
     mass[n] = node;
-    moving += 0.5 * node * (x_new * x_new + y_new * y_new + z_new * z_new);
+    kinetic += 0.5 * node * (x_new * x_new + y_new * y_new + z_new * z_new);
     loss += -0.5 * (node > 0 ? dt : 0.0) * (hx[n] * (u[n] + x_new) + hy[n] * (v[n] + y_new) + hz[n] * (w[n] + z_new));
   }
-  return {loss, moving};
+  return {loss, kinetic, {held_x, held_y, held_z}};
 }
 
 /// Layer by layer through a block of nodes. What a layer of cells does to the nodes above it is kept for them.
@@ -108,8 +108,8 @@ class March {
     storage_.assign(width_ * (17 + 3 * rows_), 0.0);  // ends of rows stay 0
   }
 
-  Energies run() {
-    Energies sum;
+  Accelerated run() {
+    Accelerated sum;
     if (block_.first_k > 1) layer(block_.first_k - 1, nullptr);
     for (int k = block_.first_k; k <= block_.last_k; ++k) layer(k, &sum);
     return sum;
@@ -168,18 +168,20 @@ class March {
     }
   }
 
-  void layer(int k, Energies* sum) {
+  Accelerated row(int j, int k) {
+    const std::array<double*, 3> hourglass{force(0), force(1), force(2)};
+    const Span nodes = block_.along, moving = awake_nodes(fluid_, j, k);
+    const auto run = [&](auto accelerate) { return accelerate(fluid_, dt_, j, k, nodes, moving, hourglass); };
+    if (untouched_around(fluid_, j, k))
+      return moving == nodes ? run(accelerate_row<OpenRow, false>) : run(accelerate_row<OpenRow, true>);
+    return moving == nodes ? run(accelerate_row<TouchedRow, false>) : run(accelerate_row<TouchedRow, true>);
+  }
+
+  void layer(int k, Accelerated* sum) {
     for (int d = 0; d < 3; ++d) gather(d, block_.first_j - 1, k);
     for (int j = block_.first_j; j <= block_.last_j; ++j) {
       for (int d = 0; d < 3; ++d) gather(d, j, k);
-      if (!sum) continue;
-      const bool open = untouched(fluid_, j, k) && untouched(fluid_, j - 1, k) && untouched(fluid_, j, k - 1) &&
-                        untouched(fluid_, j - 1, k - 1);
-      const std::array<double*, 3> hourglass{force(0), force(1), force(2)};
-      const Energies row = open ? accelerate_row<OpenRow>(fluid_, dt_, j, k, block_.along, hourglass)
-                                : accelerate_row<TouchedRow>(fluid_, dt_, j, k, block_.along, hourglass);
-      sum->dissipated += row.dissipated;
-      sum->kinetic += row.kinetic;
+      if (sum) sum->add(row(j, k));
     }
   }
 
@@ -194,16 +196,15 @@ class March {
 }  // namespace
 
 double accelerate_nodes(Fluid& fluid, double dt) {
-  const std::vector<Block>& blocks = fluid.sleeping.node_blocks;
-  std::vector<Energies> of_blocks(blocks.size());
+  const std::vector<Block>& blocks = fluid.sleeping.touched_blocks;
+  std::vector<Accelerated> of_blocks(blocks.size());
   for_blocks(blocks,
              [&](std::size_t number, const Block& block) { of_blocks[number] = March(fluid, dt, block).run(); });
-  Energies sum;
-  for (const Energies& block : of_blocks) {
-    sum.dissipated += block.dissipated;
-    sum.kinetic += block.kinetic;
-  }
-  fluid.account.hourglass += sum.dissipated;
+  Accelerated sum;
+  for (const Accelerated& block : of_blocks) sum.add(block);
+  Account& account = fluid.account;
+  account.hourglass += sum.dissipated;
+  for (int d = 0; d < 3; ++d) account.rest_impulse[d] += sum.held[d] + dt * fluid.sleeping.at_rest.force[d];
   return sum.kinetic;
 }
 

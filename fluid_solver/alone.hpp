@@ -23,10 +23,11 @@ struct CourseAlone {
 template <class Series, class After>
 void run_alone(const scene::Scene& scene, Fluid& fluid, Output& output, const results::Checkpoints& checkpoints,
                Series& series, After&& after_step) {
-  const double end = scene.run.end_time, interval = scene.run.frame_interval > 0 ? scene.run.frame_interval : end;
+  const double end = scene.run.end_time, interval = scene.run.frame_interval;
   CourseAlone<Series> course{fluid, 1, series, output};
   if (checkpoints.resuming()) {
     if (const std::string remark = checkpoints.load(course); !remark.empty()) spdlog::warn("{}", remark);
+    output.go_on(fluid);
     spdlog::info("goes on at t = {:.6e} s, step {}", fluid.time, fluid.steps);
   } else {
     output.start(fluid);
@@ -46,6 +47,7 @@ void run_alone(const scene::Scene& scene, Fluid& fluid, Output& output, const re
     if (!schedule.due(fluid.time) || !checkpoints.active() || end - fluid.time < 1.5 * dt) continue;
     const auto lap = fluid.watch.lap("checkpoints");
     schedule.taken(fluid.time);
+    check_state(fluid);  // nobody could go on from a state without meaning
     checkpoints.save(results::checkpoint_folder(fluid.steps), fluid.steps, fluid.time, course);
     results::commit_checkpoint(output.folder(), fluid.steps, fluid.time, {checkpoints.file()});
   }

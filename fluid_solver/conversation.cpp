@@ -107,6 +107,7 @@ void begin(const scene::Scene& scene, Course& course, exchange::Participant& cou
 
 void go_on(Course& course, exchange::Participant& coupler, const results::Checkpoints& checkpoints) {
   if (const std::string remark = checkpoints.load(course); !remark.empty()) spdlog::warn("{}", remark);
+  course.output.go_on(course.fluid);
   spdlog::info("goes on at t = {:.6e} s, step {}", course.fluid.time, course.fluid.steps);
   coupler.send(make_ready(course.fluid));
   coupler.receive("begin");
@@ -153,6 +154,7 @@ void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant&
     if (span.header.value("finish", false)) break;
     if (const auto folder = span.header.value("checkpoint", std::string{}); !folder.empty() && checkpoints.active()) {
       const auto lap = fluid.watch.lap("checkpoints");
+      check_state(fluid);  // nobody could go on from a state without meaning
       checkpoints.save(folder, fluid.steps, fluid.time, course);
     }
   }

@@ -16,6 +16,9 @@ Fluid::Fluid(Grid grid_in, Setup setup_in)
       before(grid, setup.boundary),
       after(grid, setup.boundary),
       motion(grid) {
+  if (setup.sleeping_threshold > 0 && setup.sweeps == Sweeps::all_orders)
+    throw std::invalid_argument(
+        "nothing sleeps where the remap takes all orders of the sweeps: they run over all cells");
   const std::size_t size = grid.size;
   for (auto& m : material)
     for (auto* array : {&m.mass, &m.energy, &m.volume}) *array = compute::zeros_in_large_pages(size);

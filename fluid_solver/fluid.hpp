@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -25,8 +26,8 @@ namespace polynya::fluid {
 
 inline constexpr int water = 0, air = 1;
 
-/// Shock viscosity away from solids: that of the reference in all compression, or only in compression that is not
-/// smooth.
+/// Shock viscosity away from solids: that of the reference in all compression, or its linear part only in compression
+/// that is not smooth.
 enum class ShockViscosity { reference, limited };
 
 /// The remap goes axis by axis: orders in turns from step to step, or in every step the mean of all orders, which costs
@@ -150,15 +151,24 @@ struct Fluid {
 
   Fluid(Grid grid, Setup setup);
 
-  /// Between steps. Left out: what the scene makes, and what a step writes before it reads it
-  /// (tests/fluid_solver/test_checkpoint.cpp spoils it).
-  POLYNYA_STATE_WITHOUT((setup, watch, face_rate, next_velocity), grid, setup, before, after, groups, group_states,
-                        own_compression, material, velocity, motion, ambient, beyond, far_field, start_damping,
-                        largest_density, account, sleeping, watch, time, steps, correction_iterations, pressure,
-                        predicted_pressure, wall_impulse, density, bulk_modulus, sound_speed, total_mass,
-                        face_coefficient, face_rate, face_mass, next_velocity, open_quarter, quarter_width, whole_nodes,
-                        node_fraction, node_mass, kinetic_loss, volume_change, viscosity, rate, donor, held_cells, held,
-                        row_held, sweep_volume, outflow, cut_rows, row_materials, label)
+  /// Between steps. Left out: what the scene makes, and what a step writes before it reads it, except where fluid
+  /// sleeps: there both are 0, and the kernels beside it read that (tests/fluid_solver/test_checkpoint.cpp).
+  void list_state(compute::StateArchive& archive) {
+    list_members(archive);
+    if (!archive.loading()) return;
+    for (auto* fields : {&face_rate, &next_velocity})
+      for (auto& field : *fields) std::fill(field.begin(), field.end(), 0.0);
+  }
+
+ private:
+  POLYNYA_STATE_MEMBERS_WITHOUT((setup, watch, face_rate, next_velocity), grid, setup, before, after, groups,
+                                group_states, own_compression, material, velocity, motion, ambient, beyond, far_field,
+                                start_damping, largest_density, account, sleeping, watch, time, steps,
+                                correction_iterations, pressure, predicted_pressure, wall_impulse, density,
+                                bulk_modulus, sound_speed, total_mass, face_coefficient, face_rate, face_mass,
+                                next_velocity, open_quarter, quarter_width, whole_nodes, node_fraction, node_mass,
+                                kinetic_loss, volume_change, viscosity, rate, donor, held_cells, held, row_held,
+                                sweep_volume, outflow, cut_rows, row_materials, label)
 };
 
 /// State of one cell for `fill`: fraction of the free volume, density and specific energy of each material.

@@ -180,6 +180,7 @@ void prescribe_motion(Fluid& fluid, const std::array<EndMotion, 3>& motion) {
 void begin_grid_motion(Fluid& fluid, double dt) {
   GridMotion& motion = fluid.motion;
   if (!motion.active()) return;
+  if (!fluid.sleeping.all_awake) throw std::logic_error("a part of the fluid sleeps, but its grid moves");
   if (motion.first_ambient.empty()) motion.first_ambient = fluid.ambient;
   for (int axis = 0; axis < 3; ++axis) {
     const std::vector<double>& line = motion.first_line[axis];

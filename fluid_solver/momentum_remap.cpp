@@ -302,17 +302,30 @@ double heat_gas(Fluid& fluid, int gases) {
   });
 }
 
-/// What the remap has brought to nodes beside sleeping cells goes: they stay at rest.
+/// What the remap has brought to nodes beside sleeping cells goes: they stay at rest. What mixing cost there before has
+/// become heat (`kinetic_loss`); this is the motion that is left.
 void hold_sleeping_nodes(Fluid& fluid) {
   if (fluid.sleeping.all_awake) return;
-  for_rows(fluid.grid, 1, [&](int j, int k) {
+  const auto taken = row_sums<4>(fluid.grid, 1, [&](int j, int k) {
     const Span touched = touched_nodes(fluid, j, k), moving = awake_nodes(fluid, j, k);
     const std::ptrdiff_t row = fluid.grid.at(0, j, k);
+    std::array<double, 4> sum{};
     for (int i = touched.first; touched != moving && i <= touched.last; ++i) {
       if (moving.holds(i)) continue;
-      for (auto& component : fluid.velocity) component[row + i] = 0;
+      for (int d = 0; d < 3; ++d) {
+        double& u = fluid.velocity[d][row + i];
+        const double momentum = fluid.viscosity[row + i] * u;  // where the remap has left the new masses
+        sum[d] += momentum;
+        sum[3] += 0.5 * momentum * u;
+        u = 0;
+      }
     }
+    return sum;
   });
+  Account& account = fluid.account;
+  for (int d = 0; d < 3; ++d) account.rest_impulse[d] += taken[d];
+  account.put_to_rest += taken[3];
+  account.remap_loss -= taken[3];  // which counts what the remap leaves to nodes that move
 }
 
 }  // namespace

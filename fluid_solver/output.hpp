@@ -20,6 +20,8 @@ class Output {
 
   /// Remembers the state that errors of mass and energy are counted from.
   void start(const Fluid& fluid);
+  /// After loading: that state is the last good one. Throws FluidError where it has no meaning.
+  void go_on(const Fluid& fluid) { keep(fluid); }
   /// Every twenty steps also checks the state (FluidError) and keeps its fields as the last good ones.
   void record(const Fluid& fluid, double step);
   /// Checks the state first (FluidError): frames are good states.
@@ -35,10 +37,10 @@ class Output {
   int frames() const { return static_cast<int>(frames_.count()); }
   const std::string& folder() const { return folder_; }
 
-  /// The last good state is kept anew.
-  POLYNYA_STATE_WITHOUT((folder_, name_, report_, vehicle_volume_, cells_, good_time_, frame_time_), folder_, name_,
-                        report_, frames_, series_, row_interval_, next_row_, step_, smallest_step_, last_row_,
-                        vehicle_volume_, first_, cells_, good_time_, frame_time_)
+  /// The last good state is kept anew, by go_on().
+  POLYNYA_STATE_WITHOUT((folder_, name_, report_, vehicle_volume_, cells_, good_time_), folder_, name_, report_,
+                        frames_, series_, row_interval_, next_row_, step_, smallest_step_, last_row_, vehicle_volume_,
+                        first_, cells_, good_time_, frame_time_)
 
  private:
   void write_row(const Fluid& fluid);

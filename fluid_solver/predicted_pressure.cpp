@@ -1,7 +1,9 @@
 // The pressure of a step: that of the middle of the step, and shock viscosity. Both have a part that damps what the
 // grid does not resolve and would spoil what it does. That part feels only the strain by which a cell differs from what
 // its neighbours along each axis let expect (Christensen 1990; Benson 1992, section 2.4): none in smooth flow, all of
-// it at the scale of the grid and beside solids.
+// it at the scale of the grid and beside solids. The quadratic part of the shock viscosity (von Neumann & Richtmyer
+// 1950) is of second order in the cell itself and feels the whole compression: limited, it would be too weak in the
+// middle of a shock that forms.
 #include <algorithm>
 #include <cmath>
 
@@ -96,9 +98,8 @@ void predict_row(Fluid& fluid, const Step& step, int j, int k, Span cells, const
         limited ? -((std::min(x, 0.0) + std::min(y, 0.0)) + std::min(z, 0.0)) * per_volume : -strain;
     const double closing = std::max(-strain, 0.0), closing_rough = std::min(closing, std::max(closing_part, 0.0));
     const double q = rho[i] * length *
-                     (closing_rough * (quadratic_viscosity * length * closing_rough +
-                                       (limited ? limited_linear_viscosity : least_linear_viscosity) * sound[i]) +
-                      closing * excess * sound[i]);
+                     (closing * (quadratic_viscosity * length * closing + excess * sound[i]) +
+                      closing_rough * (limited ? limited_linear_viscosity : least_linear_viscosity) * sound[i]);
     const double floor = std::max(m0[i] > 0 ? floor0 : -1e300, m1[i] > 0 ? floor1 : -1e300);
     const double ahead = std::max(p[i] - bulk[i] * dt * (0.5 * strain + excess_prediction * rough), floor) + q;
     out[i] = volume > 0 ? ahead : 0.0;

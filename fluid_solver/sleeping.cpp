@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fluid_solver/node_forces.hpp"
 #include "fluid_solver/phases.hpp"
-#include "fluid_solver/row_geometry.hpp"
 
 namespace polynya::fluid {
 namespace {
@@ -166,21 +166,37 @@ void shut_faces(Fluid& fluid, std::ptrdiff_t row, Span faces) {
   }
 }
 
-/// Nodes that no longer move. Returns the kinetic energy that they lose, J.
-double put_nodes_to_rest(Fluid& fluid, std::ptrdiff_t row, Span before, Span now) {
-  double taken = 0;
+/// Nodes that no longer move. Returns the momentum (N s) and the kinetic energy (J) that they lose.
+std::array<double, 4> put_nodes_to_rest(Fluid& fluid, std::ptrdiff_t row, Span before, Span now) {
+  std::array<double, 4> taken{};
   for (int i = before.first; i <= before.last; ++i) {
     if (now.holds(i)) continue;
     const std::ptrdiff_t n = row + i;
     for (int d = 0; d < 3; ++d) {
-      taken += 0.5 * fluid.node_mass[n] * fluid.velocity[d][n] * fluid.velocity[d][n];
+      const double momentum = fluid.node_mass[n] * fluid.velocity[d][n];
+      taken[d] += momentum;
+      taken[3] += 0.5 * momentum * fluid.velocity[d][n];
       fluid.velocity[d][n] = fluid.next_velocity[d][n] = 0;
     }
   }
   return taken;
 }
 
-/// Sums over the cells of a row, and its lower z-faces, that are at rest.
+/// What the cells at rest do to the nodes of a row that no cell awake touches, N. Around these all is open.
+std::array<double, 3> force_at_rest(const Fluid& fluid, int j, int k) {
+  const NodeForces<OpenRow> force(fluid, j, k);
+  const Span touched = fluid.sleeping.touched[row_number(fluid.grid, j, k)];
+  std::array<double, 3> sum{};
+  for (int i = 1; i <= fluid.grid.nx + 1; ++i) {
+    if (touched.holds(i)) continue;
+    sum[0] += force.x(i);
+    sum[1] += force.y(i);
+    sum[2] += force.z(i);
+  }
+  return sum;
+}
+
+/// Sums over the cells of a row, its lower z-faces and its nodes that are at rest.
 RowAtRest sum_at_rest(const Fluid& fluid, int j, int k) {
   const Grid& grid = fluid.grid;
   const std::ptrdiff_t row = grid.at(0, j, k);
@@ -188,7 +204,8 @@ RowAtRest sum_at_rest(const Fluid& fluid, int j, int k) {
              faces = fluid.sleeping.touched[row_number(grid, j, k)];
   const bool cells = k <= grid.nz;
   RowAtRest sum;
-  for (int i = 1; i <= grid.nx; ++i) {
+  sum.force = force_at_rest(fluid, j, k);
+  for (int i = 1; i <= grid.nx && j <= grid.ny; ++i) {
     const std::ptrdiff_t c = row + i;
     if (!faces.holds(i) && fluid.setup.gravity != 0) {
       const bool shut = (k == 1 && fluid.setup.boundary[4] == Boundary::wall) ||
@@ -213,8 +230,9 @@ void sum_rows_at_rest(Fluid& fluid) {
   RowAtRest& all = fluid.sleeping.at_rest;
   all = {};
   for (int k = 1; k <= grid.nz + 1; ++k) {
-    for (int j = 1; j <= grid.ny; ++j) {
+    for (int j = 1; j <= grid.ny + 1; ++j) {
       const RowAtRest& row = fluid.sleeping.rows_at_rest[row_number(grid, j, k)];
+      for (int d = 0; d < 3; ++d) all.force[d] += row.force[d];
       for (int m = 0; m < 2; ++m) all.mass[m] += row.mass[m];
       all.internal += row.internal;
       all.weight += row.weight;
@@ -261,25 +279,29 @@ void arrange_awake(Fluid& fluid) {
   set_spans(grid, sleeping);
   set_sheltered(sleeping);
   sleeping.cell_blocks = blocks_of(grid, sleeping.cells, 0);
-  sleeping.node_blocks = blocks_of(grid, sleeping.nodes, 1);
   sleeping.touched_blocks = blocks_of(grid, sleeping.touched, 1);
   if (cells.empty()) {
     sleeping.rows_at_rest.assign(sleeping.cells.size(), {});
     return;
   }
-  fluid.account.put_to_rest += row_sum(grid, 1, [&](int j, int k) {
+  const auto taken = row_sums<4>(grid, 1, [&](int j, int k) {
     const std::size_t row = row_number(grid, j, k);
     const std::ptrdiff_t at = grid.at(0, j, k);
-    double taken = 0;
     if (touched[row] != sleeping.touched[row]) shut_faces(fluid, at, touched[row]);
     if (cells[row] != sleeping.cells[row]) put_cells_to_rest(fluid, at, cells[row], sleeping.cells[row]);
-    if (nodes[row] != sleeping.nodes[row]) taken = put_nodes_to_rest(fluid, at, nodes[row], sleeping.nodes[row]);
-    const bool changed = cells[row] != sleeping.cells[row] || touched[row] != sleeping.touched[row];
-    if (changed && j <= grid.ny) sleeping.rows_at_rest[row] = sum_at_rest(fluid, j, k);
+    if (nodes[row] == sleeping.nodes[row]) return std::array<double, 4>{};
+    return put_nodes_to_rest(fluid, at, nodes[row], sleeping.nodes[row]);
+  });
+  for (int d = 0; d < 3; ++d) fluid.account.rest_impulse[d] += taken[d];
+  fluid.account.put_to_rest += taken[3];
+  // Only now: forces on nodes come from several rows of cells.
+  for_rows(grid, 1, [&](int j, int k) {
+    const std::size_t row = row_number(grid, j, k);
+    if (cells[row] == sleeping.cells[row] && touched[row] == sleeping.touched[row]) return;
+    sleeping.rows_at_rest[row] = sum_at_rest(fluid, j, k);
     const Span awake = sleeping.cells[row];
-    for (int i = awake.first; changed && i <= awake.last; ++i)
-      fluid.total_mass[at + i] = fluid.material[0].mass[at + i] + fluid.material[1].mass[at + i];
-    return taken;
+    for (std::ptrdiff_t c = grid.at(awake.first, j, k); c <= grid.at(awake.last, j, k); ++c)
+      fluid.total_mass[c] = fluid.material[0].mass[c] + fluid.material[1].mass[c];
   });
   update_node_mass(fluid);
   sum_rows_at_rest(fluid);
@@ -291,6 +313,7 @@ void let_time_pass(Fluid& fluid, double dt) {
   ++fluid.steps;
   fluid.sleeping.cells_in_all += static_cast<double>(fluid.grid.cells());
   fluid.account.gravity_impulse += dt * fluid.setup.gravity * fluid.sleeping.at_rest.weight;
+  for (int d = 0; d < 3; ++d) fluid.account.rest_impulse[d] += dt * fluid.sleeping.at_rest.force[d];
   for (int side = 0; side < 6; ++side)
     fluid.account.boundary_impulse[side / 2] += dt * fluid.sleeping.boundary_force[side];
 }

@@ -30,17 +30,20 @@ struct Block {
 
 /// What the cells at rest of a row add up to.
 struct RowAtRest {
-  std::array<double, 2> mass{};  ///< kg
-  double internal = 0;           ///< J
-  double weight = 0;             ///< on the lower z-faces between them, over the acceleration of gravity, kg
-  double least_step = 1e300;     ///< smallest width over sound speed, s
-  unsigned char materials = 0;   ///< bit 1 water, bit 2 air
+  std::array<double, 2> mass{};   ///< kg
+  double internal = 0;            ///< J
+  double weight = 0;              ///< on the lower z-faces between them, over the acceleration of gravity, kg
+  std::array<double, 3> force{};  ///< of their pressure and weight on the nodes between them, N
+  double least_step = 1e300;      ///< smallest width over sound speed, s
+  unsigned char materials = 0;    ///< bit 1 water, bit 2 air
 };
 
 /// Which part of the fluid is stepped. Bricks of cells that stay below the threshold sleep: their cells keep what they
-/// hold, their nodes are exactly at rest. So nothing flows through their faces and no work is done on them: the border
-/// is a wall to what is below the threshold, and mass and energy stay exact. Where a row has several bricks awake,
-/// those between are awake, too: every kernel runs over one span per row.
+/// hold to the bit, their nodes are exactly at rest. So nothing flows through their faces and no work is done on them:
+/// the border is a wall to what is below the threshold. What is dropped is the motion of nodes: of those that fall
+/// asleep, and of those at the border, which pressures push and flows run into. The account has it (`put_to_rest`,
+/// `rest_impulse`), each part taken where it is dropped, so that its sums are as constant as those of a fluid awake.
+/// Where a row has several bricks awake, those between are awake, too: every kernel runs over one span per row.
 struct Sleeping {
   static constexpr int edge = 8;                  ///< of a brick, cells
   static constexpr long steps_between_looks = 8;  ///< in which a signal crosses half a brick
@@ -62,7 +65,7 @@ struct Sleeping {
   std::vector<RowAtRest> rows_at_rest;
   std::vector<unsigned char> layers, planes;  ///< 1 where a layer k, a plane j has cells awake
   std::vector<unsigned char> sheltered;       ///< by brick: it and all its neighbours are awake
-  std::vector<Block> cell_blocks, node_blocks, touched_blocks;
+  std::vector<Block> cell_blocks, touched_blocks;
   RowAtRest at_rest;                       ///< of all rows
   std::array<double, 6> boundary_force{};  ///< by side of the grid: of the cells at rest outward, N
   std::size_t cells_awake = 0;
@@ -73,15 +76,15 @@ struct Sleeping {
 
   void list_state(compute::StateArchive& archive) {
     if (archive.loading()) {  // as many as there were
-      for (std::vector<Block>* blocks : {&cell_blocks, &node_blocks, &touched_blocks}) blocks->clear();
+      for (std::vector<Block>* blocks : {&cell_blocks, &touched_blocks}) blocks->clear();
     }
     list_members(archive);
   }
 
  private:
   POLYNYA_STATE_MEMBERS_WITHOUT((), bricks, awake, quiet_looks, disturbance, cells_stepped, cells_in_all, cells, near,
-                                nodes, touched, rows_at_rest, layers, planes, sheltered, cell_blocks, node_blocks,
-                                touched_blocks, at_rest, boundary_force, cells_awake, all_awake)
+                                nodes, touched, rows_at_rest, layers, planes, sheltered, cell_blocks, touched_blocks,
+                                at_rest, boundary_force, cells_awake, all_awake)
 };
 
 /// Calls body(other) for a brick and those around it (up to 27).

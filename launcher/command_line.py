@@ -136,7 +136,8 @@ def build_parser() -> argparse.ArgumentParser:
     conform.add_argument("--scene", metavar="SCENE", help="default: cases/vehicle_drop, cases/vehicle_in_water")
     add_scene_options(conform)
     conform.add_argument("--out", metavar="DIR", help="keep the run folders and logs of the conversations here")
-    conform.add_argument("--patience", metavar="SECONDS", type=seconds, default=60.0, help="for each answer; default: 60")
+    conform.add_argument("--patience", metavar="SECONDS", type=seconds, default=60.0,
+                         help="for each answer; default: 60")
     conform.add_argument("--slow", metavar="SECONDS", type=seconds, default=2.0,
                          help="for which the coupler once says nothing; default: 2")
 

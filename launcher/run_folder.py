@@ -14,8 +14,10 @@ from launcher import ROOT, WrongInput
 # What a run consists of. Nothing else in the folder is ever touched.
 RECORD = "record"
 CHECKPOINTS = "checkpoints"
-PARTS = ("series", "fields", "logs", "pictures", "replay", RECORD, CHECKPOINTS, "summary.json", "scene.json", "vehicle_surface.json")
+PARTS = ("series", "fields", "logs", "pictures", "replay", RECORD, CHECKPOINTS, "summary.json", "scene.json",
+         "vehicle_surface.json")
 SUMMARIES = "*_summary.json"
+ASIDE = ".before"  # what a run that goes on replaces, until its programs have taken up the state
 LOCK = ".lock"
 
 
@@ -52,19 +54,39 @@ def prepare(folder: Path, scene: dict) -> IO[str]:
         remove(folder / part)
     for summary in folder.glob(SUMMARIES):
         remove(summary)
+    drop_aside(folder)
     for part in ("logs", "series", "fields"):
         (folder / part).mkdir()
     write_json(folder / "scene.json", scene)
     return lock
 
 
-def reopen(folder: Path, scene: dict) -> IO[str]:
-    """For a run that goes on: keeps what there is but the summaries. Returns the lock to hold during the run."""
-    lock = hold(folder)
-    for summary in (folder / "summary.json", *folder.glob(SUMMARIES)):
-        remove(summary)
+def told(folder: Path) -> list[Path]:
+    """What a run says of itself as a whole."""
+    return [folder / "scene.json", folder / "summary.json", *folder.glob(SUMMARIES)]
+
+
+def replace_told(folder: Path, scene: dict) -> None:
+    """For a run that goes on: its scene is this one, and its summaries are put aside. The caller holds the folder."""
+    drop_aside(folder)
+    for file in told(folder):
+        if file.exists():
+            shutil.copy2(file, file.with_name(file.name + ASIDE))
     write_json(folder / "scene.json", scene)
-    return lock
+    for file in told(folder):
+        if file.name != "scene.json":
+            remove(file)
+
+
+def restore_told(folder: Path) -> None:
+    """As if the run had never been asked to go on."""
+    for file in folder.glob("*" + ASIDE):
+        os.replace(file, file.with_name(file.name.removesuffix(ASIDE)))
+
+
+def drop_aside(folder: Path) -> None:
+    for file in folder.glob("*" + ASIDE):
+        remove(file)
 
 
 def hold(folder: Path) -> IO[str]:

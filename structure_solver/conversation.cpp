@@ -137,78 +137,93 @@ double begin(BuiltVehicle& vehicle, exchange::Participant& coupler, Output& outp
   return dt;
 }
 
+/// Before the first window: from the start, or from a checkpoint.
+void start(BuiltVehicle& vehicle, exchange::Participant& coupler, Course& course,
+           const results::Checkpoints& checkpoints, std::vector<double>& hull_force) {
+  if (!checkpoints.resuming()) {
+    course.dt = begin(vehicle, coupler, course.output, hull_force);
+    course.account = course.body.account();
+    return;
+  }
+  if (const std::string remark = checkpoints.load(course); !remark.empty()) spdlog::warn("{}", remark);
+  spdlog::info("goes on at t = {:.6e} s, window {}", course.time, course.window);
+  coupler.send(make_ready(vehicle, course.account, course.time));
+  coupler.receive("begin");
+}
+
+/// Positions at the end of the window go to the coupler; returns its answer. Internal forces are computed meanwhile.
+exchange::Message exchange_window(Course& course, exchange::Participant& coupler, std::vector<double>& hull_force) {
+  compute::Stopwatch& watch = course.output.watch();
+  {
+    const auto lap = watch.lap("positions");
+    course.body.advance_positions(course.dt);
+    course.time += course.dt;
+  }
+  {
+    const auto lap = watch.lap("messages");
+    coupler.send(make_surface(course.window, course.time, course.body, course.account));
+  }
+  {
+    const auto lap = watch.lap("internal_forces");
+    course.body.internal_forces(course.dt);
+  }
+  const auto lap = watch.lap("messages");
+  exchange::Message loads = coupler.receive("loads");
+  read_loads(loads, hull_force);
+  return loads;
+}
+
+/// Velocities by the loads, what is written of the window, and the steps of a free one but for its last.
+void finish_window(Course& course, const exchange::Message& loads, double step_factor,
+                   const std::vector<double>& hull_force) {
+  compute::Stopwatch& watch = course.output.watch();
+  const bool finish = loads.header.value("finish", false), free = loads.header.value("free", false);
+  const double next = finish ? loads.header.value("next_step", course.dt) : positive_step(loads, "next_step");
+  const double first = free ? compute::equal_step(next, step_factor * course.body.stable_step()) : next;
+  {
+    const auto lap = watch.lap("velocities");
+    course.body.finish_step(hull_force, course.dt, first);
+  }
+  {
+    const auto lap = watch.lap("account");
+    course.account = course.body.account();
+  }
+  course.output.record(course.time, course.dt, course.account);
+  if (const int frame = loads.header.value("frame", -1); frame >= 0) course.output.write_frame(frame, course.time);
+  course.dt = first;
+  if (!free) return;
+  course.dt = advance_freely(course.body, first, next - first, step_factor, course.time, course.output);
+  course.account = course.body.account();
+}
+
+void say_goodbye(exchange::Participant& coupler, Output& output) {
+  exchange::Message finished("finished");
+  finished.header.update(output.summary());
+  const auto lap = output.watch().lap("messages");
+  coupler.send(finished);
+  coupler.receive("bye");
+  spdlog::info("finished: {}", output.summary().dump());
+}
+
 }  // namespace
 
 void run_coupled(BuiltVehicle& vehicle, double step_factor, exchange::Participant& coupler, Output& output,
                  const results::Checkpoints& checkpoints) {
-  VehicleBody& body = *vehicle.body;
-  Course course{.body = body, .output = output, .account = body.account()};
-  auto& [same_body, same_output, time, dt, window, account] = course;
-  std::vector<double> hull_force(3 * body.hull_vertices());
-  if (checkpoints.resuming()) {
-    if (const std::string remark = checkpoints.load(course); !remark.empty()) spdlog::warn("{}", remark);
-    spdlog::info("goes on at t = {:.6e} s, window {}", time, window);
-    coupler.send(make_ready(vehicle, account, time));
-    coupler.receive("begin");
-  } else {
-    dt = begin(vehicle, coupler, output, hull_force);
-    account = body.account();
-  }
-
-  compute::Stopwatch& watch = output.watch();
+  Course course{.body = *vehicle.body, .output = output, .account = vehicle.body->account()};
+  std::vector<double> hull_force(3 * vehicle.body->hull_vertices());
+  start(vehicle, coupler, course, checkpoints, hull_force);
   for (;;) {
-    {
-      const auto lap = watch.lap("positions");
-      body.advance_positions(dt);
-      time += dt;
-    }
-    {
-      const auto lap = watch.lap("messages");
-      coupler.send(make_surface(window, time, body, account));
-    }
-    {
-      const auto lap = watch.lap("internal_forces");
-      body.internal_forces(dt);
-    }
-    exchange::Message loads;
-    {
-      const auto lap = watch.lap("messages");
-      loads = coupler.receive("loads");
-      read_loads(loads, hull_force);
-    }
+    const exchange::Message loads = exchange_window(course, coupler, hull_force);
     compute::use_threads(loads.header.value("threads", 0));
-    const bool finish = loads.header.value("finish", false);
-    const double next = finish ? loads.header.value("next_step", dt) : positive_step(loads, "next_step");
-    const bool free = loads.header.value("free", false);
-    const double first = free ? compute::equal_step(next, step_factor * body.stable_step()) : next;
-    {
-      const auto lap = watch.lap("velocities");
-      body.finish_step(hull_force, dt, first);
-    }
-    {
-      const auto lap = watch.lap("account");
-      account = body.account();
-    }
-    output.record(time, dt, account);
-    if (const int frame = loads.header.value("frame", -1); frame >= 0) output.write_frame(frame, time);
-    dt = first;
-    if (free) {
-      dt = advance_freely(body, first, next - first, step_factor, time, output);
-      account = body.account();
-    }
-    if (finish) break;
-    ++window;
+    finish_window(course, loads, step_factor, hull_force);
+    if (loads.header.value("finish", false)) break;
+    ++course.window;
     if (const auto folder = loads.header.value("checkpoint", std::string{}); !folder.empty() && checkpoints.active()) {
-      const auto lap = watch.lap("checkpoints");
-      checkpoints.save(folder, window, time, course);
+      const auto lap = output.watch().lap("checkpoints");
+      checkpoints.save(folder, course.window, course.time, course);
     }
   }
-  exchange::Message finished("finished");
-  finished.header.update(output.summary());
-  const auto lap = watch.lap("messages");
-  coupler.send(finished);
-  coupler.receive("bye");
-  spdlog::info("finished: {}", output.summary().dump());
+  say_goodbye(coupler, output);
 }
 
 }  // namespace polynya::structure

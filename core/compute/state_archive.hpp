@@ -94,9 +94,9 @@ class StateArchive {
   template <class T, std::size_t n>
   void list(const std::string& name, std::array<T, n>& value);
   void list(const std::string& name, std::string& value);
-  /// Makes room for what is stored.
-  template <class Container>
-  void fit(const std::string& name, Entry entry, Container& value);
+  /// Makes room for the rows that are stored.
+  template <class T>
+  void fit(const std::string& name, std::vector<T>& value);
 
   static std::vector<std::string> split(std::string_view names);
 
@@ -115,6 +115,20 @@ template <class T, std::size_t n>
 inline constexpr bool is_container<std::array<T, n>> = true;
 template <>
 inline constexpr bool is_container<std::string> = true;
+
+/// What an entry of an array consists of: `count` values of one type that is mere bytes, side by side.
+template <class T>
+struct Row {
+  using Value = T;
+  static constexpr std::size_t count = 1;
+  static constexpr bool plain = std::is_trivially_copyable_v<T> && !ListsState<T> && !is_container<T>;
+};
+template <class T, std::size_t n>
+struct Row<std::array<T, n>> {
+  using Value = typename Row<T>::Value;
+  static constexpr std::size_t count = n * Row<T>::count;
+  static constexpr bool plain = n > 0 && Row<T>::plain;
+};
 }  // namespace state_detail
 
 template <class T>
@@ -145,21 +159,24 @@ void StateArchive::values(const std::string& name, T* first, std::size_t count) 
   transfer(full, entry_of<T>(), first, count);
 }
 
-template <class Container>
-void StateArchive::fit(const std::string& name, Entry entry, Container& value) {
+template <class T>
+void StateArchive::fit(const std::string& name, std::vector<T>& value) {
+  using Row = state_detail::Row<T>;
   if (!loading_) return;
-  const std::size_t there = stored(prefix_ + name, entry);
-  if (!value.empty() && value.size() != there)
-    throw StateError("'" + prefix_ + name + "' holds " + std::to_string(there) + " values, " +
-                     std::to_string(value.size()) + " are needed");
-  value.resize(there);
+  const std::size_t there = stored(prefix_ + name, entry_of<typename Row::Value>());
+  const std::string found = "'" + prefix_ + name + "' holds " + std::to_string(there) + " values, ";
+  if (there % Row::count != 0) throw StateError(found + "which are no whole rows of " + std::to_string(Row::count));
+  if (const std::size_t needed = Row::count * value.size(); needed != 0 && needed != there)
+    throw StateError(found + std::to_string(needed) + " are needed");
+  value.resize(there / Row::count);
 }
 
 template <class T>
 void StateArchive::list(const std::string& name, std::vector<T>& value) {
-  if constexpr (std::is_trivially_copyable_v<T> && !ListsState<T> && !state_detail::is_container<T>) {
-    fit(name, entry_of<T>(), value);
-    values(name, value.data(), value.size());
+  using Row = state_detail::Row<T>;
+  if constexpr (Row::plain) {
+    fit(name, value);
+    values(name, reinterpret_cast<typename Row::Value*>(value.data()), Row::count * value.size());
   } else {
     std::uint64_t count = value.size();
     item(name + ".count", count);
@@ -213,8 +230,9 @@ void StateArchive::list(const std::string& name, std::optional<T>& value) {
 
 template <class T, std::size_t n>
 void StateArchive::list(const std::string& name, std::array<T, n>& value) {
-  if constexpr (std::is_trivially_copyable_v<T> && !ListsState<T> && !state_detail::is_container<T>)
-    values(name, value.data(), n);
+  using Row = state_detail::Row<std::array<T, n>>;
+  if constexpr (Row::plain)
+    values(name, reinterpret_cast<typename Row::Value*>(value.data()), Row::count);
   else
     for (std::size_t i = 0; i < n; ++i) item(name + "[" + std::to_string(i) + "]", value[i]);
 }

@@ -21,7 +21,7 @@ namespace {
 using Entry = compute::StateArchive::Entry;
 using Kind = compute::StateArchive::Kind;
 
-constexpr std::int64_t file_format = 1;
+constexpr std::int64_t file_format = 2;
 constexpr const char* values_group = "state";
 
 /// Closes an HDF5 identifier at the end of its scope; negative ones are left to the caller to see.
@@ -117,13 +117,18 @@ std::set<std::string> names_in(hid_t group) {
 
 /// Keys of a resolved scene that may change while a run goes on: they decide when it ends, who computes and what is
 /// reported, not what is computed.
-const std::set<std::string> free_sections{"participants", "checkpoint", "record", "title", "name", "level", "estimate"};
+const std::set<std::string> free_sections{"checkpoint", "record", "title", "name", "level", "estimate"};
 const std::set<std::string> free_keys{"/run/end_time", "/run/join_timeout", "/run/filter_frequency"};
+const std::set<std::string> free_of_participants{"command", "launch", "threads"};
 
 nlohmann::json fixed_part(const std::string& scene) {
   nlohmann::json parsed = nlohmann::json::parse(scene, nullptr, false);
   if (!parsed.is_object()) return {};
   for (const std::string& section : free_sections) parsed.erase(section);
+  if (parsed.contains("participants"))
+    for (auto& [name, participant] : parsed["participants"].items())
+      for (const std::string& key : free_of_participants)
+        if (participant.is_object()) participant.erase(key);
   if (parsed.contains("effects"))
     for (auto& [name, effect] : parsed["effects"].items())
       if (effect.is_object()) effect.erase("reason");

@@ -44,7 +44,7 @@ class CheckpointWriter final : public compute::StateArchive {
 class CheckpointReader final : public compute::StateArchive {
  public:
   /// scene: the resolved scene of now, JSON. It must be that of the checkpoint but for what may change on the way: the
-  /// end time, checkpoints, the record, programs and threads of participants, names and what is reported.
+  /// end time, checkpoints, the record, command, launch and threads of participants, names and what is reported.
   CheckpointReader(std::string path, const std::string& program, const std::string& scene);
   ~CheckpointReader() override;
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/results/durable_file.hpp"
 #include "core/results/error.hpp"
@@ -18,6 +19,7 @@ void FrameSeries::write(int number, const UnstructuredFields& fields, double tim
   char digits[16];
   std::snprintf(digits, sizeof digits, "_%04d", number);
   const std::string file = name_ + digits + ".vtkhdf";
+  if (std::exchange(cut_, false)) remove_others();
   write_frame(folder_ + "/" + file, fields, time);
   std::erase_if(entries_, [&](const Entry& entry) { return entry.file == file; });
   entries_.push_back({file, time});
@@ -26,9 +28,7 @@ void FrameSeries::write(int number, const UnstructuredFields& fields, double tim
 
 void FrameSeries::list_state(compute::StateArchive& archive) {
   archive.item("frames", entries_);
-  if (!archive.loading()) return;
-  remove_others();
-  if (!entries_.empty()) write_index();
+  cut_ = archive.loading();
 }
 
 void FrameSeries::remove_others() const {

@@ -19,7 +19,8 @@ class FrameSeries {
 
   std::size_t count() const { return entries_.size(); }
 
-  /// The index; loading rewrites it and removes frames that came later.
+  /// The index. The first frame after loading removes those that came later: until then all is as it was, in case
+  /// another program refuses the checkpoint.
   void list_state(compute::StateArchive& archive);
 
  private:
@@ -35,6 +36,7 @@ class FrameSeries {
   std::string folder_;
   std::string name_;
   std::vector<Entry> entries_;
+  bool cut_ = false;  ///< before the next frame: what is not in the index
 };
 
 }  // namespace polynya::results

@@ -40,8 +40,7 @@ void TimeSeries::list_state(compute::StateArchive& archive) {
   if (there < length_)
     throw ResultsError("the time series " + path_ + " has " + std::to_string(there) + " bytes, " +
                        std::to_string(length_) + " when the checkpoint was taken");
-  if (::ftruncate(descriptor_, length_) != 0 || ::lseek(descriptor_, length_, SEEK_SET) < 0)
-    throw_file_error(path_, errno);
+  cut_ = true;
 }
 
 TimeSeries::TimeSeries(TimeSeries&& other) noexcept
@@ -49,7 +48,8 @@ TimeSeries::TimeSeries(TimeSeries&& other) noexcept
       columns_(std::move(other.columns_)),
       line_(std::move(other.line_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      length_(other.length_) {}
+      length_(other.length_),
+      cut_(other.cut_) {}
 
 TimeSeries::~TimeSeries() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -69,6 +69,9 @@ void TimeSeries::append(std::span<const double> row) {
 }
 
 void TimeSeries::write_line() {
+  if (cut_ && (::ftruncate(descriptor_, length_) != 0 || ::lseek(descriptor_, length_, SEEK_SET) < 0))
+    throw_file_error(path_, errno);
+  cut_ = false;
   line_ += '\n';
   std::size_t done = 0;
   while (done < line_.size()) {

@@ -23,8 +23,8 @@ struct Column {
 class TimeSeries {
  public:
   /// Creates (or empties) the file and writes the header line; creates the folder. Throws ResultsError.
-  /// Continued: keeps what is there, to be cut to the length of the checkpoint by list_state(); the header must be that
-  /// of the columns.
+  /// Continued: keeps what is there, to be cut to the length of the checkpoint (list_state); the header must be that of
+  /// the columns.
   TimeSeries(std::string path, std::vector<Column> columns, Opening opening = Opening::fresh);
   ~TimeSeries();
   TimeSeries(TimeSeries&& other) noexcept;
@@ -37,7 +37,8 @@ class TimeSeries {
 
   const std::vector<Column>& columns() const { return columns_; }
 
-  /// The length of the file; loading cuts off the rows that came later. Throws ResultsError if there are fewer.
+  /// The length of the file. The first row after loading replaces those that came later: until then all is as it was,
+  /// in case another program refuses the checkpoint. Throws ResultsError if there are fewer.
   void list_state(compute::StateArchive& archive);
 
  private:
@@ -48,6 +49,7 @@ class TimeSeries {
   std::string line_;
   int descriptor_ = -1;
   std::int64_t length_ = 0;  ///< bytes written
+  bool cut_ = false;         ///< before the next row: what is longer than that
 };
 
 }  // namespace polynya::results

@@ -141,6 +141,8 @@ void add_costs(const Scene& scene, const CostModel& c, Estimate& e) {
   e.memory =
       cells * c.fluid_cell_memory + elements * c.hexahedron_memory + (processes + (coupled ? 1 : 0)) * c.process_memory;
   e.disk = e.frames * (cells * c.fluid_cell_frame + elements * c.hexahedron_frame) + e.windows * c.window_rows;
+  if (scene.checkpoint.interval > 0 || scene.checkpoint.wall_interval > 0)
+    e.disk += c.checkpoints_kept * (cells * c.fluid_cell_checkpoint + elements * c.hexahedron_checkpoint);
 }
 
 std::string gigabytes(double bytes) {

@@ -13,16 +13,19 @@ struct CostModel {
   /// alone takes 131 ns (docs/verification_fluid.md); the quick base scene's fluid took some 90 s for 4,200 steps of
   /// 51,840 cells on two busy cores.
   double fluid_cell_step = 400e-9;
-  double hexahedron_step = 150e-9;    ///< s of one core per element and step
-  double window = 300e-6;             ///< s per coupling window: messages, contact search, ledger
-  double cut_triangle = 8e-3 / 5000;  ///< s of one core per triangle and span: overlap of surface and grid
-  double fluid_cell_memory = 600;     ///< bytes
-  double hexahedron_memory = 800;     ///< bytes
-  double process_memory = 60e6;       ///< bytes per process
-  double fluid_cell_frame = 150;      ///< bytes per cell in a field frame
-  double hexahedron_frame = 200;      ///< bytes per element in a field frame
-  double window_rows = 1500;          ///< bytes of all time series per window
-  double usable = 0.9;                ///< fraction of the available memory and disk that a run may take
+  double hexahedron_step = 150e-9;      ///< s of one core per element and step
+  double window = 300e-6;               ///< s per coupling window: messages, contact search, ledger
+  double cut_triangle = 8e-3 / 5000;    ///< s of one core per triangle and span: overlap of surface and grid
+  double fluid_cell_memory = 600;       ///< bytes
+  double hexahedron_memory = 800;       ///< bytes
+  double process_memory = 60e6;         ///< bytes per process
+  double fluid_cell_frame = 150;        ///< bytes per cell in a field frame
+  double hexahedron_frame = 200;        ///< bytes per element in a field frame
+  double window_rows = 1500;            ///< bytes of all time series per window
+  double fluid_cell_checkpoint = 520;   ///< bytes per cell: 27 MB of the quick base scene's 51,840 cells
+  double hexahedron_checkpoint = 2400;  ///< bytes per element: 10 MB of its 4,117 elements, the coupler's part too
+  double checkpoints_kept = 3;          ///< the last two and the one in work
+  double usable = 0.9;                  ///< fraction of the available memory and disk that a run may take
 };
 
 struct Machine {

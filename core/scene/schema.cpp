@@ -161,8 +161,8 @@ std::vector<KeyRule> fluid_rules() {
       choice("fluid.outer_boundary", {"non_reflecting", "wall"}, "non_reflecting",
              "sides, bottom and top of the domain"),
       choice("fluid.shock_viscosity", {"limited", "reference"}, "limited",
-             "away from solids: only in compression that is not smooth, or in all compression (0.06 linear, 1.5 "
-             "quadratic); beside solids always the latter"),
+             "away from solids: the linear part (0.2) only in compression that is not smooth, or (0.06) in all "
+             "compression; 1.5 quadratic in both; beside solids always the latter"),
       choice("fluid.sweeps", {"alternating", "all_orders"}, "alternating",
              "orders of the axes in the remap: in turns, or in every step the mean of all six, which is the same for "
              "all axes and dearer"),

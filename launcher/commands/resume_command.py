@@ -9,7 +9,7 @@ import sys
 import time
 from pathlib import Path
 
-from launcher import WrongInput, build, processes, report, run_folder, scene, summary
+from launcher import WRONG_INPUT, WrongInput, build, processes, report, run_folder, scene, summary
 from launcher.commands.replay_command import seconds
 from launcher.commands.run_command import draw, supervise
 
@@ -20,6 +20,12 @@ def run(arguments: argparse.Namespace) -> int:
     folder = Path(arguments.run).resolve()
     if not run_folder.is_run(folder):
         raise WrongInput(f"{arguments.run}: is not the folder of a run")
+    with run_folder.hold(folder):
+        return go_on(arguments, folder)
+
+
+def go_on(arguments: argparse.Namespace, folder: Path) -> int:
+    """Replaces nothing before all is checked that can be without the programs, and puts it back if these refuse."""
     resolved = run_folder.read_json(folder / scene.RESOLVED)
     names = scene.participants(resolved)
     for setting in arguments.settings:
@@ -34,12 +40,16 @@ def run(arguments: argparse.Namespace) -> int:
     build.build(processes.programs_for(resolved, names))
 
     started = time.monotonic()
-    with run_folder.reopen(folder, resolved):
-        outcome = supervise(resolved, names, folder, cores, plain=arguments.json, resume=checkpoint)
-        result = summary.merge(folder, resolved, names, outcome, time.monotonic() - started)
-        if outcome.reason:
-            print(f"polynya: {outcome.reason} (logs: {folder / 'logs'})", file=sys.stderr)
-        pictures = draw(folder) if arguments.pictures else []
+    run_folder.replace_told(folder, resolved)
+    outcome = supervise(resolved, names, folder, cores, plain=arguments.json, resume=checkpoint)
+    if outcome.exit_code == WRONG_INPUT:
+        run_folder.restore_told(folder)
+        raise WrongInput(f"{outcome.reason} (logs: {folder / 'logs'})")
+    run_folder.drop_aside(folder)
+    result = summary.merge(folder, resolved, names, outcome, time.monotonic() - started)
+    if outcome.reason:
+        print(f"polynya: {outcome.reason} (logs: {folder / 'logs'})", file=sys.stderr)
+    pictures = draw(folder) if arguments.pictures else []
     if arguments.json:
         print(json.dumps(result, allow_nan=False))
     else:
@@ -59,7 +69,8 @@ def last_checkpoint(folder: Path, words: str, names: list[str]) -> tuple[Path, f
         if wanted <= set(files) and all(is_whole(candidate / name, size) for name, size in files.items()):
             return candidate, float(manifest["time"])
         trouble = f"{candidate.name} lacks files or they are cut short"
-    raise WrongInput(f"{words}: cannot go on: {trouble} (checkpoint.interval, checkpoint.wall_interval in docs/scene.md)")
+    raise WrongInput(f"{words}: cannot go on: {trouble} (checkpoint.interval, checkpoint.wall_interval in "
+                     "docs/scene.md)")
 
 
 def is_whole(file: Path, size: int) -> bool:
@@ -77,5 +88,5 @@ def change(resolved: dict, setting: str) -> None:
     elif (match := THREADS.fullmatch(key)) and match[1] in resolved["participants"] and text.isdigit():
         resolved["participants"][match[1]]["threads"] = int(text)
     else:
-        raise WrongInput(f"--set {setting}: a run that goes on keeps its scene; only run.end_time, checkpoint.interval, "
-                         "checkpoint.wall_interval and participants.NAME.threads may change")
+        raise WrongInput(f"--set {setting}: a run that goes on keeps its scene; only run.end_time, "
+                         "checkpoint.interval, checkpoint.wall_interval and participants.NAME.threads may change")

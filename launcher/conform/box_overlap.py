@@ -64,12 +64,13 @@ def overlap(lines: list[numpy.ndarray], box: Box, speed: float) -> dict[str, num
     areas_of_walls, velocities = numpy.zeros((len(walls), 2, 3)), numpy.zeros((len(walls), 2, 3))
     areas_of_walls[:, 0] = wall.reshape(-1, 3)[walls]
     velocities[:, 0, 2] = speed
-    arrays = {"cell": cells.astype("i8"), "solid_volume": volume.ravel()[cells], "debris_volume": numpy.zeros(len(cells)),
-              "cell.full": runs(full), "wall": walls.astype("i8"), "wall_area": areas_of_walls, "wall_velocity": velocities}
+    arrays = {"cell": cells.astype("i8"), "solid_volume": volume.ravel()[cells],
+              "debris_volume": numpy.zeros(len(cells)), "cell.full": runs(full), "wall": walls.astype("i8"),
+              "wall_area": areas_of_walls, "wall_velocity": velocities}
     for axis, name in enumerate(("face_x", "face_y", "face_z")):
         solid = faces[axis].ravel()
         index = numpy.flatnonzero((solid > 0) & (solid < 1))
-        arrays[name], arrays[name + ".solid"], arrays[name + ".full"] = index.astype("i8"), solid[index], runs(solid == 1)
+        arrays |= {name: index.astype("i8"), name + ".solid": solid[index], name + ".full": runs(solid == 1)}
     return arrays
 
 

@@ -99,7 +99,7 @@ class Conversation:
             supervise.wait([self.child], 0)
 
     def exit_code(self) -> int | None:
-        """How the process ended, minus the number of a signal; None if it did not in time. Last messages are dropped."""
+        """How the process ended, minus the number of a signal; None if it did not in time. Drops last messages."""
         deadline = time.monotonic() + UNTIL_ENDED
         while self.child.status is None and time.monotonic() < deadline:
             if not self.socket.closed and self.socket.poll(0):

@@ -53,7 +53,7 @@ class Fluid:
         self.stable = greeting.stable_step(message, SECTION)
         expected = {"pressure.values": len(self.walls), "pressure.gradient_z": len(self.walls)}
         if not first:
-            expected |= {"pressure.previous_values": self.walls_before, "pressure.previous_gradient_z": self.walls_before}
+            expected |= dict.fromkeys(("pressure.previous_values", "pressure.previous_gradient_z"), self.walls_before)
         if "pressure.impedance" in message.arrays:
             expected["pressure.impedance"] = len(self.walls)
         for name, count in expected.items():
@@ -79,8 +79,8 @@ class Fluid:
             if len(error) and not error.max() <= AT_REST * max(numpy.abs(due).max(), 1.0):
                 e = int(numpy.argmax(error))
                 self.findings.add(SECTION, f"rest {name}", f"'pressure': around a body at rest 'pressure.{name}' is "
-                                  f"{found[e]:.6g} {unit} at a depth of {depth[e]:.4g} m, where the gauge pressure gives "
-                                  f"{due[e]:.6g} {unit} (positive in compression, falling upward)")
+                                  f"{found[e]:.6g} {unit} at a depth of {depth[e]:.4g} m, where the gauge pressure "
+                                  f"gives {due[e]:.6g} {unit} (positive in compression, falling upward)")
 
     def advance(self, *, finish: bool = False, frame: int = -1, remark: str = "", odd_fields: bool = False,
                 odd_arrays: bool = False) -> None:

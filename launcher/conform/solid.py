@@ -64,8 +64,8 @@ class Solid:
         self.time += self.step
         stated = message.field(SECTION, "time", float, "a number of seconds")
         if not abs(stated - self.time) <= 1e-9 * self.step + 1e-12 * self.time:
-            self.findings.add(SECTION, "time", f"'surface' of window {self.window}: the field 'time' is {stated:.9g} s, "
-                                               f"the window ends at {self.time:.9g} s")
+            self.findings.add(SECTION, "time", f"'surface' of window {self.window}: the field 'time' is "
+                                               f"{stated:.9g} s, the window ends at {self.time:.9g} s")
         self.stable = greeting.stable_step(message, SECTION)
         self.changed = message.field(SECTION, "topology_changed", bool, "true or false")
         self.changes += self.changed
@@ -74,15 +74,16 @@ class Solid:
         self.check_reaction(message, before)
 
     def check_reaction(self, message: Message, before: Surface) -> None:
-        """Vertical momentum changes by the impulse of the loads; without such an entry in the account the surface, which
-        has a part of the mass, takes a part of the impulse."""
+        """Vertical momentum changes by the impulse of the loads; without such an entry in the account the surface,
+        which has a part of the mass, takes a part of the impulse."""
         last, now = self.account.values, self.account.read(message)
         impulse, self.unsettled = self.unsettled, 0.0
         self.impulses += abs(impulse)
         said = "(dt + dt')/2 times the sum of the forces" if self.window else "dt/2 times the sum of the forces"
         given = f"the loads of window {self.window - 1} give" if self.window else "the loads of 'begin' give"
         if "momentum_z" in now:
-            others = sum(now.get(name, 0.0) - last.get(name, 0.0) for name in ("boundary_impulse_z", "gravity_impulse_z"))
+            others = sum(now.get(name, 0.0) - last.get(name, 0.0)
+                         for name in ("boundary_impulse_z", "gravity_impulse_z"))
             change = now["momentum_z"] - last["momentum_z"] - others
             allowed = 1e-9 * self.impulses + 1e-13 * abs(now["momentum_z"])
             if not abs(change - impulse) <= allowed:

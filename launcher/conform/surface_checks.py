@@ -134,6 +134,6 @@ def check_advance(surface: Surface, before: Surface, step: float, window: int, f
     allowed = 64 * ROUNDING * (numpy.abs(before.positions[then]).max(initial=0) + numpy.abs(moved).max(initial=0))
     if error.max(initial=0) > allowed:
         v = int(numpy.argmax(error.max(axis=1)))
-        findings.add(SECTION, "advance", f"'surface' of window {window}: vertex {now[v]} is {error[v].max():.3g} m away "
-                                         "from where its velocity carries it in the step: x(n+1) must be "
+        findings.add(SECTION, "advance", f"'surface' of window {window}: vertex {now[v]} is {error[v].max():.3g} m "
+                                         "away from where its velocity carries it in the step: x(n+1) must be "
                                          "x(n) + dt v(n+1/2) with the velocity that is sent along")

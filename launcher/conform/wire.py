@@ -75,7 +75,8 @@ def brackets(shape: tuple[int, ...]) -> str:
     return "".join(f"[{extent}]" for extent in shape) or "[]"
 
 
-def encode(kind: str, run: str, fields: dict, arrays: dict[str, numpy.ndarray], protocol: int = PROTOCOL) -> list[bytes]:
+def encode(kind: str, run: str, fields: dict, arrays: dict[str, numpy.ndarray],
+           protocol: int = PROTOCOL) -> list[bytes]:
     descriptors = [{"name": name, "type": array.dtype.str[1:], "shape": list(array.shape)}
                    for name, array in arrays.items()]
     header = {"protocol": protocol, "run": run, "kind": kind, "part": 1, "parts": 1, **fields, "arrays": descriptors}

@@ -42,7 +42,7 @@ TEST(EndCondition, ExitedWithoutIceWhenTheTailIsAboveTheWaterline) {
   EXPECT_EQ(coupler::end_reason(scene, 0, 0.119, 40), "");
   EXPECT_EQ(coupler::end_reason(scene, 0, 0.121, 40), "exited");
   EXPECT_EQ(coupler::end_reason(scene, 0, 0.05, -1), "");  // it falls back and may rise again
-  EXPECT_NEAR(coupler::time_to_end(scene, 0, 0.1, 40), 0.02 / 40, 1e-15);
+  EXPECT_NEAR(coupler::time_to_event(scene, 0.1, 40), 0.02 / 40, 1e-15);
 }
 
 TEST(EndCondition, NothingButTimeEndsTheFlightOfAVehicleAlone) {
@@ -50,7 +50,7 @@ TEST(EndCondition, NothingButTimeEndsTheFlightOfAVehicleAlone) {
   scene.run.end = "exited";
   scene.ice.reset();
   EXPECT_EQ(coupler::end_reason(scene, 0, 100, 40), "");
-  EXPECT_EQ(coupler::time_to_end(scene, 0, 100, 40), 1e-3);
+  EXPECT_GT(coupler::time_to_event(scene, 100, 40), 1e300);
   EXPECT_EQ(coupler::end_reason(scene, 1e-3, 100, 40), "time");
 }
 
@@ -63,8 +63,7 @@ TEST(EndCondition, StoppedVehicleAndLatestTimeEndEveryRun) {
 TEST(EndCondition, NothingEndsTheRunBeforeTheTimeThatIsForetold) {
   scene::Scene scene = thin_ice();
   scene.run.gravity = 9.81;
-  EXPECT_DOUBLE_EQ(coupler::time_to_end(scene, 0.25e-3, -0.5, 40), 0.75e-3);    // latest end
-  EXPECT_NEAR(coupler::time_to_end(scene, 0, 0.01, 40), 0.02 / 40, 1e-15);      // a diameter above the ice
-  EXPECT_NEAR(coupler::time_to_end(scene, 0, 0.01, 1e-3), 1e-3 / 9.81, 1e-15);  // weight stops it before
-  EXPECT_EQ(coupler::time_to_end(scene, 0, 0.05, 40), 0);
+  EXPECT_NEAR(coupler::time_to_event(scene, 0.01, 40), 0.02 / 40, 1e-15);      // a diameter above the ice
+  EXPECT_NEAR(coupler::time_to_event(scene, 0.01, 1e-3), 1e-3 / 9.81, 1e-15);  // weight stops it before
+  EXPECT_EQ(coupler::time_to_event(scene, 0.05, 40), 0);
 }

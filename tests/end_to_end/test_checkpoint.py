@@ -41,7 +41,7 @@ def manifests(folder):
     return sorted(Path(folder, "checkpoints").glob("*/manifest.json"))
 
 
-class Resume(unittest.TestCase):
+class Comparison(unittest.TestCase):
     def compare(self, one, other):
         self.assertEqual(series_of(one).keys(), series_of(other).keys())
         for name, rows in series_of(one).items():
@@ -53,6 +53,8 @@ class Resume(unittest.TestCase):
         for index in Path(one, "fields").glob("*.json"):
             self.assertEqual(index.read_text(), Path(other, "fields", index.name).read_text())
 
+
+class Resume(Comparison):
     def kill_and_resume(self, scene, *settings, checkpoints=1):
         words = [word for setting in settings for word in ("--set", setting)]
         with scratch() as folder:
@@ -90,7 +92,7 @@ class Resume(unittest.TestCase):
                              "run.frame_interval='50 ms'")
 
 
-class ALaterEnd(unittest.TestCase):
+class ALaterEnd(Comparison):
     def test_a_finished_run_goes_on_to_a_later_end_and_refuses_what_does_not_fit(self):
         drop = ["run", "cases/vehicle_drop", "--no-pictures", "--json", "--set", "vehicle.nose_position='-0.5 mm'",
                 "--set", "run.frame_interval='10 us'", "--set", "checkpoint.interval='8 us'"]
@@ -105,6 +107,12 @@ class ALaterEnd(unittest.TestCase):
                 file.write(bytes(1000))
             refused = polynya("resume", copy, "--no-pictures", "--set", "run.end_time='50 us'")
             self.assertEqual(refused.returncode, 2, refused.stderr)
+            self.assertIn("is damaged", refused.stderr)
+            # The finished run is as it was: its scene, its summary, and what the other programs had written.
+            for name in ("scene.json", "summary.json", "coupler_summary.json"):
+                self.assertEqual(Path(copy, name).read_bytes(), Path(run, name).read_bytes(), name)
+            self.assertEqual([entry.name for entry in Path(copy).glob("*.before")], [])
+            self.compare(run, copy)
             refused = polynya("resume", run, "--set", "vehicle.speed=60")
             self.assertEqual(refused.returncode, 2)
             self.assertIn("a run that goes on keeps its scene", refused.stderr)
@@ -119,6 +127,21 @@ class ALaterEnd(unittest.TestCase):
 
             summary_of(polynya("resume", run, "--no-pictures", "--json", "--set", "run.end_time='50 us'"))
             summary_of(polynya(*drop, "--set", "run.end_time='50 us'", "--out", whole))
+            for name in ("coupler.csv", "ledger.csv"):
+                self.assertEqual(series_of(run)[name], series_of(whole)[name], name)
+            self.assertEqual(fields_of(run), fields_of(whole))
+
+    def test_windows_cut_to_the_end_are_in_no_checkpoint(self):
+        """Apart, the solids take long windows of their own, the last one to the end; a later end makes it longer."""
+        drop = ["run", "cases/vehicle_drop", "--no-pictures", "--json", "--set", "vehicle.nose_position='-2 mm'",
+                "--set", "run.frame_interval='4 us'", "--set", "checkpoint.interval='0.1 us'"]
+        with scratch() as folder:
+            run, whole = f"{folder}/run", f"{folder}/whole"
+            summary_of(polynya(*drop, "--set", "run.end_time='6 us'", "--out", run))
+            last = json.loads(manifests(run)[-1].read_text())["time"]
+            self.assertLess(last, 4.5e-6)  # of the windows before the frame at 4 us, none of those before the end
+            summary_of(polynya("resume", run, "--no-pictures", "--json", "--set", "run.end_time='9 us'"))
+            summary_of(polynya(*drop, "--set", "run.end_time='9 us'", "--out", whole))
             for name in ("coupler.csv", "ledger.csv"):
                 self.assertEqual(series_of(run)[name], series_of(whole)[name], name)
             self.assertEqual(fields_of(run), fields_of(whole))

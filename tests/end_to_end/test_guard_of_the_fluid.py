@@ -39,6 +39,20 @@ class GuardOfTheFluid(unittest.TestCase):
                     self.assertTrue(numpy.isfinite(data[name][:]).all(), name)
                 self.assertGreater(data["density"][:].min(), 0)
 
+    def test_state_that_a_run_goes_on_from_is_its_last_good_one(self):
+        """It fails again, too soon after the checkpoint for another state to be kept."""
+        with scratch() as folder:
+            run = Path(folder, "run")
+            process = polynya("run", "cases/shock_tube", "--out", run,
+                              *settings(TORN + ["checkpoint.interval=0.2 us", "run.frame_interval=50 us"]))
+            self.assertEqual(process.returncode, 1, process.stderr)
+            last = sorted((run / "checkpoints").glob("*/manifest.json"))[-1]
+            again = polynya("resume", run, "--no-pictures")
+            self.assertEqual(again.returncode, 1, again.stderr)
+            self.assertIn("last good state", again.stderr)
+            frames = json.loads((run / "fields" / "fluid.json").read_text())["frames"]
+            self.assertGreaterEqual(frames[-1]["time"], json.loads(last.read_text())["time"])
+
     def test_state_of_a_tube_that_its_law_does_not_know(self):
         with scratch() as folder:
             process = polynya("run", "cases/shock_tube", "--out", Path(folder, "run"),

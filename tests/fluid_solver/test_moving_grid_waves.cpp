@@ -299,15 +299,15 @@ double pressure_at(const Fluid& fluid, const std::array<double, 3>& point) {
 TEST(MovingGridWaves, BlastOnAGridAt40MetresPerSecondGivesTheFixedGridsResultWithinOnePercent) {
   const double time = 4e-4;
   const Fluid rest = blast(48, 0, time), moving = blast(48, 40, time);
-  // Points in the two cells around the shock see where it lies in its cell, on any grid: they count in the mean.
-  const double shock = 0.44;
+  // Points within three cells of the shock see where it lies in its cell, on any grid: they count in the mean.
+  const double shock = 0.44, cell = 1.0 / 48;
   double worst = 0, sum = 0, most = 0;
   long number = 0;
   for (double x = -0.35; x <= 0.35; x += 0.05) {
     for (double y = -0.35; y <= 0.35; y += 0.05) {
       for (double z = -0.35; z <= 0.35; z += 0.05) {
         const double one = pressure_at(rest, {x, y, z}), two = pressure_at(moving, {x, y, z});
-        if (std::abs(std::hypot(x, y, z) - shock) > 0.05) worst = std::max(worst, std::abs(one - two));
+        if (std::abs(std::hypot(x, y, z) - shock) > 3 * cell) worst = std::max(worst, std::abs(one - two));
         sum += std::abs(one - two);
         most = std::max(most, one);
         ++number;

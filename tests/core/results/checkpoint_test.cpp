@@ -145,6 +145,46 @@ TEST_F(Checkpoint, NamesTheKeyInWhichTheSceneDiffers) {
   EXPECT_EQ(error_of(path, State{}, "fluid_solver", longer), "no error");
 }
 
+TEST_F(Checkpoint, LetsOnlyCommandLaunchAndThreadsOfParticipantsChange) {
+  const std::string before = R"({"participants": {"ice": {"command": "", "launch": "", "threads": 0, "seed": 1}}})";
+  const std::string freed = R"({"participants": {"ice": {"command": "a", "launch": "b", "threads": 2, "seed": 1}}})";
+  EXPECT_EQ(scene_difference(before, freed), "");
+  std::string other = before;
+  other.replace(other.find("\"seed\": 1"), 9, "\"seed\": 2");
+  EXPECT_EQ(scene_difference(before, other), "participants.ice.seed is 1 there and 2 here");
+  EXPECT_NE(scene_difference(before, R"({"participants": {}})"), "");
+  std::string more = before;
+  more.replace(more.find("{\"ice\""), 1, "{\"fluid\": {\"command\": \"\"}, ");
+  EXPECT_EQ(scene_difference(before, more), "participants.fluid is absent there and null here");
+}
+
+TEST_F(Checkpoint, KeepsRowsOfNumbersInOneDataSet) {
+  struct Rows {
+    std::vector<std::array<std::array<double, 3>, 2>> forces;
+    std::vector<std::array<std::int32_t, 3>> triangles;
+    std::array<std::array<double, 2>, 3> ends{};
+    POLYNYA_STATE(forces, triangles, ends)
+  };
+  Rows rows{{}, {{1, 2, 3}, {4, 5, 6}}, {{{1, 2}, {3, 4}, {5, 6}}}};
+  for (int n = 0; n < 1000; ++n) rows.forces.push_back({{{n + 0.1, n + 0.2, n + 0.3}, {0.4, 0.5, 0.6}}});
+  const std::string file = folder / "rows.h5";
+  save_checkpoint(file, {"fluid_solver", scene, 0, 0}, rows);
+  EXPECT_LT(std::filesystem::file_size(file), 1000 * 48 + 20000);  // a data set each would take 400 bytes more
+  Rows loaded;
+  EXPECT_EQ(error_of(file, loaded), "no error");
+  EXPECT_EQ(loaded.forces, rows.forces);
+  EXPECT_EQ(loaded.triangles, rows.triangles);
+  EXPECT_EQ(loaded.ends, rows.ends);
+  Rows shorter;
+  shorter.triangles.resize(1);
+  expect_part(error_of(file, shorter), "'state.triangles' holds 6 values, 3 are needed");
+  struct Pairs {
+    std::vector<std::array<std::int32_t, 4>> triangles;
+    POLYNYA_STATE(triangles)
+  } fours;
+  expect_part(error_of(file, fours), "'state.triangles' holds 6 values, which are no whole rows of 4");
+}
+
 TEST_F(Checkpoint, NamesTheProgramThatWroteIt) {
   expect_part(error_of(path, State{}, "ice_solver"), "was written by fluid_solver, this is ice_solver");
 }
@@ -202,7 +242,9 @@ TEST(Checkpoints, CutATimeSeriesToTheRowsOfThen) {
     series.append(std::array{0.1, 2.0});
   }
   TimeSeries series(path, columns, Opening::continued);
+  const std::string before = read_text(path);
   CheckpointReader(run / "a.h5", "p", "{}").load(series);
+  EXPECT_EQ(read_text(path), before);  // the run may not go on after all
   series.append(std::array{0.2, 3.0});
   EXPECT_EQ(read_text(path), "time [s],force [N]\n0,1\n0.2,3\n");
   EXPECT_THROW(TimeSeries(path, {{"time", "s"}}, Opening::continued), ResultsError);
@@ -220,6 +262,8 @@ TEST(Checkpoints, RemoveFieldFramesThatCameLater) {
   }
   FrameSeries frames(run.path(), "ice");
   CheckpointReader(run / "a.h5", "p", "{}").load(frames);
+  EXPECT_TRUE(std::filesystem::exists(run / "fields/ice_0001.vtkhdf"));  // the run may not go on after all
+  frames.write(2, fields, 0.2);
   EXPECT_TRUE(std::filesystem::exists(run / "fields/ice_0000.vtkhdf"));
   EXPECT_FALSE(std::filesystem::exists(run / "fields/ice_0001.vtkhdf"));
   EXPECT_EQ(read_text(run / "fields/ice.json").find("0001"), std::string::npos);

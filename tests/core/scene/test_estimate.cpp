@@ -42,6 +42,13 @@ TEST(Estimate, SaysWhatDoesNotFit) {
   EXPECT_NE(estimate(scene, {.memory = 1e12, .disk = 1e3, .cores = 2}).reason.find("disk"), std::string::npos);
 }
 
+// A checkpoint of the quick base scene was measured at 37 MB (docs/coupling.md); up to three lie on the disk.
+TEST(Estimate, CheckpointsTakeTheirRoomOnTheDisk) {
+  const double with = estimate(base_scene(), plenty).disk;
+  const double without = estimate(base_scene({"checkpoint.interval=0 s", "checkpoint.wall_interval=0 s"}), plenty).disk;
+  EXPECT_NEAR(with - without, 3 * 37e6, 0.3 * 3 * 37e6);
+}
+
 TEST(Estimate, EveryCaseCostsSomethingFinite) {
   for (const std::string name : {"water_exit", "vehicle_drop", "beam_bending", "shock_tube", "dam_break"}) {
     const Estimate e = estimate(resolve(case_folder(name)), plenty);
