@@ -27,7 +27,7 @@ double verify_sample(const CutCells& cut, std::span<const BodySurface> bodies, c
 std::size_t recut_uncertain(CutCells& cut, std::span<const BodySurface> bodies, const GridLines& grid);
 
 /// The cutter's clipping in exact numbers, for Cutter::set_method: what a triangle leaves in a cell is rounded once.
-/// About a thousand times slower than doubles.
+/// Some two hundred times slower than doubles.
 void clip_exactly(const std::array<LineLocator, 3>& lines, std::span<const BasicCorner<double>> corners,
                   std::span<const std::int32_t> triangles, std::size_t begin, std::size_t end,
                   std::vector<PieceRecord>& records);
