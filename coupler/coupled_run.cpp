@@ -23,6 +23,11 @@ constexpr long cuts_between_samples = 100;  // every 100 cuts a seeded sample is
 constexpr std::size_t cells_in_sample = 8;
 constexpr double largest_sample_difference = 1e-10;
 
+void make_overlap(Run& run) {
+  run.overlap.emplace(*run.conversation.fluid, run.scene.effect("debris_displacement"),
+                      run.scene.fluid->atmospheric_pressure, run.scene.overlap.method == "exact");
+}
+
 /// Cuts the grid where the solids are now.
 const geometry::CutCells& cut_grid(Run& run) {
   ++run.cuts;
@@ -48,7 +53,7 @@ void begin(Run& run, const std::vector<std::string>& names) {
   run.limits.longest_span = run.scene.run.frame_interval / 100;
   if (run.conversation.fluid) {
     FluidSide& fluid = *run.conversation.fluid;
-    run.overlap.emplace(fluid, run.scene.effect("debris_displacement"), run.scene.fluid->atmospheric_pressure);
+    make_overlap(run);
     const geometry::CutCells& cells = cut_grid(run);
     check_cut(run);
     spdlog::info("first cut: {} cells hold solid, {} loose edges, {} corrected faces", cells.cell.size(),
@@ -86,9 +91,7 @@ void begin(Run& run, const std::vector<std::string>& names) {
 void go_on(Run& run, const std::vector<std::string>& names) {
   const auto lap = run.watch.lap("messages");
   receive_ready(run.conversation, names);
-  if (run.conversation.fluid)
-    run.overlap.emplace(*run.conversation.fluid, run.scene.effect("debris_displacement"),
-                        run.scene.fluid->atmospheric_pressure);
+  if (run.conversation.fluid) make_overlap(run);
   run.monitor.emplace(run.scene, run.folder, run.conversation, results::Opening::continued);
   load_checkpoint(run);
   begin_balance(run, names);
@@ -323,6 +326,12 @@ void write_reports(Run& run, const std::vector<std::pair<std::string, nlohmann::
   nlohmann::json summary = run.monitor->summary(run.keeper, run.conversation, run.ledger);
   summary["end_reason"] = run.end;
   summary["overlap_cuts"] = run.cuts;
+  if (run.overlap) {
+    const OverlapExchange::Counts& cut = run.overlap->counts();
+    summary["overlap_cells"] = cut.cells;
+    summary["overlap_cells_exact"] = cut.exact;
+    summary["overlap_cells_two_bodies"] = cut.shared;
+  }
   for (const auto& [name, words] : last_words) summary["participants"][name] = words;
   std::ofstream(run.folder + "/coupler_summary.json") << summary.dump(1) << '\n';
   results::ProcessReport report;

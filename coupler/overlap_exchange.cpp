@@ -1,5 +1,6 @@
 #include "coupler/overlap_exchange.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/compute/parallel.hpp"
@@ -16,10 +17,14 @@ std::size_t at_wall(const geometry::WallPiece& piece) {
 
 }  // namespace
 
-OverlapExchange::OverlapExchange(const FluidSide& fluid, bool debris_displaces_fluid, double atmospheric_pressure)
+OverlapExchange::OverlapExchange(const FluidSide& fluid, bool debris_displaces_fluid, double atmospheric_pressure,
+                                 bool exact)
     : cutter_(fluid.grid),
       debris_displaces_fluid_(debris_displaces_fluid),
-      atmospheric_pressure_(atmospheric_pressure) {}
+      exact_(exact),
+      atmospheric_pressure_(atmospheric_pressure) {
+  if (exact) cutter_.set_method(geometry::clip_exactly);
+}
 
 std::vector<geometry::BodySurface> OverlapExchange::Cut::views() const {
   std::vector<geometry::BodySurface> bodies(body_count);
@@ -41,6 +46,11 @@ const geometry::CutCells& OverlapExchange::cut(const Conversation& conversation,
     surface.triangles = side.triangles;
   }
   cutter_.cut(now_.views(), now_.cells);
+  const std::size_t recut = geometry::recut_uncertain(now_.cells, now_.views(), cutter_.grid());
+  const long walled = std::count(now_.cells.walled.begin(), now_.cells.walled.end(), std::uint8_t{1});
+  counts_.cells += walled;
+  counts_.exact += exact_ ? walled : static_cast<long>(recut);
+  counts_.shared += static_cast<long>(now_.cells.shared_cells);
   if (debris_displaces_fluid_) {
     const auto inner = watch.lap("debris_displacement");
     std::vector<double> positions, volumes;

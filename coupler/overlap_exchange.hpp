@@ -12,7 +12,8 @@ namespace polynya::coupler {
 /// the vertices: what the fluid gave and what the solids get agree to rounding.
 class OverlapExchange {
  public:
-  OverlapExchange(const FluidSide& fluid, bool debris_displaces_fluid, double atmospheric_pressure);
+  /// `exact`: the cut is made in exact numbers throughout.
+  OverlapExchange(const FluidSide& fluid, bool debris_displaces_fluid, double atmospheric_pressure, bool exact);
 
   /// Cuts the grid by the solids where they are now and remembers the cut before. The watch's headings "overlap" and
   /// "debris_displacement" take the time.
@@ -28,6 +29,15 @@ class OverlapExchange {
   /// gives the vertices their impedance. After `prepare`. Surfaces may have lost vertices since the cut before.
   void take(Conversation& conversation, const FluidAnswer& answer, double span, Ledger& ledger) const;
 
+  /// Of all cuts so far.
+  struct Counts {
+    long cells = 0;   ///< with wall
+    long exact = 0;   ///< of them, recut by exact numbers because rounding made them uncertain, or all
+    long shared = 0;  ///< cells that hold both bodies
+    POLYNYA_STATE(cells, exact, shared)
+  };
+  const Counts& counts() const { return counts_; }
+
   const geometry::CutCells& before() const { return before_.cells; }
   const geometry::CutCells& now() const { return now_.cells; }
 
@@ -36,8 +46,8 @@ class OverlapExchange {
   double verify_sample(std::uint64_t seed, std::size_t count) const;
 
   /// Between spans, when only the last cut is looked at again.
-  POLYNYA_STATE_WITHOUT((cutter_, debris_displaces_fluid_, atmospheric_pressure_, before_), cutter_,
-                        debris_displaces_fluid_, atmospheric_pressure_, before_, now_)
+  POLYNYA_STATE_WITHOUT((cutter_, debris_displaces_fluid_, exact_, atmospheric_pressure_, before_), cutter_,
+                        debris_displaces_fluid_, exact_, atmospheric_pressure_, counts_, before_, now_)
 
  private:
   using PerBody = std::array<std::vector<double>, body_count>;  ///< by vertex of the body's surface
@@ -68,8 +78,9 @@ class OverlapExchange {
   PerBody impedances(const Conversation& conversation, std::span<const double> impedance) const;
 
   geometry::Cutter cutter_;
-  bool debris_displaces_fluid_;
+  bool debris_displaces_fluid_, exact_;
   double atmospheric_pressure_;  ///< Pa
+  Counts counts_;
   Cut before_, now_;
 };
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int layers = 2;              ///< of cells around those that hold walls
 constexpr double least_weight = 0.05;  ///< of a closed face between two cells with fluid
-constexpr double tolerance = 1e-9;     ///< of a cell's volume: with water's stiffness about two pascal
+constexpr double tolerance = 1e-11;    ///< of a cell's volume: with water's stiffness a fiftieth of a pascal
 constexpr int most_iterations = 200;
 
 class Network {

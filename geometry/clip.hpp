@@ -13,9 +13,24 @@ namespace polynya::geometry {
 /// coordinates, decide on which side of a plane a corner lies, and corners made on a shared edge are computed from the
 /// same numbers in the same order by both neighbours. So pieces of neighbouring triangles and cells always fit
 /// together.
-struct Corner {
-  std::array<double, 3> x;
+template <class Number>
+struct BasicCorner {
+  std::array<Number, 3> x;
   std::array<std::int32_t, 3> slab;
+};
+using Corner = BasicCorner<double>;
+
+/// What clipping needs to know of a kind of number.
+template <class Number>
+struct NumberKind;
+
+template <>
+struct NumberKind<double> {
+  static double nearest(double x) { return x; }
+  /// The interval that holds x, of those from `first` to `last`.
+  static std::int32_t slab(const LineLocator& lines, double x, std::int32_t first, std::int32_t last) {
+    return std::clamp(lines.below(x), first, last);
+  }
 };
 
 inline constexpr std::uint8_t on_lower_x = 1, on_upper_x = 2, on_lower_y = 4, on_upper_y = 8;
@@ -23,12 +38,13 @@ inline constexpr std::uint8_t on_lower_x = 1, on_upper_x = 2, on_lower_y = 4, on
 inline constexpr std::size_t most_corners = 24;
 
 /// A part of a triangle. Corners are not copied from cut to cut: they lie where they were made.
-struct Polygon {
+template <class Number>
+struct BasicPolygon {
   std::size_t count = 0;
-  std::array<const Corner*, most_corners> corner;
+  std::array<const BasicCorner<Number>*, most_corners> corner;
   std::array<std::uint8_t, most_corners> planes;  ///< that the edge from a corner to the next lies on
 
-  void push(const Corner* c, std::uint8_t edge_planes) {
+  void push(const BasicCorner<Number>* c, std::uint8_t edge_planes) {
     corner[count] = c;
     planes[count++] = edge_planes;
   }
@@ -46,10 +62,15 @@ struct PieceRecord {
   std::int64_t entry = -1;            ///< where the cell went in the sorted output; -1: no wall of any cell
 };
 
-/// Cuts triangles and appends their records.
-class TriangleClipper {
+/// Cuts triangles and appends their records. Number is double, or one without rounding (exact_clip.cpp); then records
+/// hold the nearest doubles.
+template <class Number>
+class BasicClipper {
  public:
-  TriangleClipper(const std::array<LineLocator, 3>& lines, std::vector<PieceRecord>& records)
+  using Corner = BasicCorner<Number>;
+  using Polygon = BasicPolygon<Number>;
+
+  BasicClipper(const std::array<LineLocator, 3>& lines, std::vector<PieceRecord>& records)
       : lines_(lines), records_(records) {}
 
   void cut(std::int32_t triangle, const Corner& a, const Corner& b, const Corner& c) {
@@ -105,20 +126,22 @@ class TriangleClipper {
       record(polygon);
   }
 
+  static Number between_0_and_1(const Number& t) { return std::clamp(t, Number(0), Number(1)); }
+
   /// Assigned to the upper side: of the part below the plane nobody asks any more.
   template <std::size_t axis>
   void cross(const Corner& below, const Corner& above, std::int32_t plane, Corner& r) const {
-    const double position = lines_[axis].line(plane), rise = above.x[axis] - below.x[axis];
+    const Number position = lines_[axis].line(plane), rise = above.x[axis] - below.x[axis];
     // Both ends on the plane, assigned to different sides: any point of the edge serves, if both neighbours choose the
     // same.
-    const double t = rise > 0 ? std::clamp((position - below.x[axis]) / rise, 0.0, 1.0) : 0.5;
+    const Number t = rise > 0 ? between_0_and_1(Number((position - below.x[axis]) / rise)) : Number(0.5);
     for (std::size_t d = 0; d < 3; ++d) {
       if (d == axis) continue;
       r.x[d] = below.x[d] + t * (above.x[d] - below.x[d]);
       r.slab[d] = below.slab[d];
       if (d > axis && below.slab[d] != above.slab[d])
-        r.slab[d] = std::clamp(lines_[d].below(r.x[d]), std::min(below.slab[d], above.slab[d]),
-                               std::max(below.slab[d], above.slab[d]));
+        r.slab[d] = NumberKind<Number>::slab(lines_[d], r.x[d], std::min(below.slab[d], above.slab[d]),
+                                             std::max(below.slab[d], above.slab[d]));
     }
     r.x[axis] = position;
     r.slab[axis] = plane;
@@ -146,20 +169,21 @@ class TriangleClipper {
   }
 
   void prepare_weights(const Corner& a, const Corner& b, const Corner& c) {
-    std::array<double, 3> e, f;
+    std::array<Number, 3> e, f;
     for (std::size_t d = 0; d < 3; ++d) {
       origin_[d] = a.x[d];
       e[d] = b.x[d] - a.x[d];
       f[d] = c.x[d] - a.x[d];
     }
-    const std::array<double, 3> n{e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
-    dominant_ = std::abs(n[0]) > std::abs(n[1]) ? 0 : 1;
-    if (std::abs(n[2]) > std::abs(n[dominant_])) dominant_ = 2;
+    const std::array<Number, 3> n{e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
+    const auto size = [&](std::size_t d) { return Number(n[d] < 0 ? Number(-n[d]) : n[d]); };
+    dominant_ = size(0) > size(1) ? 0 : 1;
+    if (size(2) > size(dominant_)) dominant_ = 2;
     u_ = (dominant_ + 1) % 3;
     v_ = (dominant_ + 2) % 3;
-    const double inverse = n[dominant_] != 0 ? 1.0 / n[dominant_] : 0.0;
-    to_second_ = {f[v_] * inverse, -f[u_] * inverse};
-    to_third_ = {-e[v_] * inverse, e[u_] * inverse};
+    const Number inverse = n[dominant_] != 0 ? Number(Number(1) / n[dominant_]) : Number(0);
+    to_second_ = {Number(f[v_] * inverse), Number(-f[u_] * inverse)};
+    to_third_ = {Number(-e[v_] * inverse), Number(e[u_] * inverse)};
   }
 
   void record(const Polygon& polygon);
@@ -168,9 +192,10 @@ class TriangleClipper {
   std::vector<PieceRecord>& records_;
   std::int32_t triangle_ = 0;
   std::array<std::int32_t, 3> cell_{};
-  std::array<double, 3> origin_{};
+  std::array<Number, 3> origin_{};
   std::size_t dominant_ = 2, u_ = 0, v_ = 1;
-  std::array<double, 2> to_second_{}, to_third_{};
+  std::array<Number, 2> to_second_{}, to_third_{};
 };
+using TriangleClipper = BasicClipper<double>;
 
 }  // namespace polynya::geometry

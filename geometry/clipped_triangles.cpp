@@ -2,9 +2,9 @@
 
 namespace polynya::geometry {
 
-void ClippedChunk::clip(const std::array<LineLocator, 3>& lines, const std::vector<Corner>& corners,
-                        std::span<const std::int32_t> triangles, std::size_t begin, std::size_t end) {
-  records.clear();
+void clip_packed(const std::array<LineLocator, 3>& lines, std::span<const Corner> corners,
+                 std::span<const std::int32_t> triangles, std::size_t begin, std::size_t end,
+                 std::vector<PieceRecord>& records) {
   TriangleClipper clipper(lines, records);
   for (std::size_t t = begin; t < end; ++t) {
     const auto corner = [&](std::size_t c) -> const Corner& {
@@ -12,6 +12,12 @@ void ClippedChunk::clip(const std::array<LineLocator, 3>& lines, const std::vect
     };
     clipper.cut(static_cast<std::int32_t>(t), corner(0), corner(1), corner(2));
   }
+}
+
+void ClippedChunk::clip(ClipTriangles method, const std::array<LineLocator, 3>& lines, std::span<const Corner> corners,
+                        std::span<const std::int32_t> triangles, std::size_t begin, std::size_t end) {
+  records.clear();
+  method(lines, corners, triangles, begin, end, records);
   const auto columns_x = static_cast<std::size_t>(lines[0].intervals()) + 1;
   const std::size_t columns = columns_x * (static_cast<std::size_t>(lines[1].intervals()) + 1);
   sort(static_cast<std::int32_t>(columns_x), (columns + column_chunk - 1) / column_chunk);

@@ -11,6 +11,10 @@ constexpr double negligible = 1e-12;        // of a cell or face: rounding
 constexpr std::size_t prefetch_ahead = 16;  // records
 constexpr double negligible_wall = 1e-14;   // of the sum of a cell's face areas
 
+// Rounding moves a corner by a few parts in 2^53 of its coordinates, and the volume under it by that times the wall; a
+// sum rounds each of its terms. Beyond this share of a cell a volume is not certain.
+constexpr double rounding = 32 * 0x1p-53, largest_uncertainty = 1e-11;
+
 double snapped(double fraction) {
   if (std::abs(fraction) < negligible) return 0.0;
   if (std::abs(fraction - 1.0) < negligible) return 1.0;
@@ -20,8 +24,9 @@ double snapped(double fraction) {
 /// One column: gathers the records, then walks down from the top, keeping what lies above.
 class ColumnWalk {
  public:
-  ColumnWalk(const GridLines& grid, std::span<const BodySurface> bodies, std::size_t column, ColumnChunk& chunk)
-      : bodies_(bodies), local_(column % column_chunk), chunk_(chunk), z_(grid.lines[2]) {
+  ColumnWalk(const GridLines& grid, std::span<const BodySurface> bodies, std::span<const double> reach,
+             std::size_t column, ColumnChunk& chunk)
+      : bodies_(bodies), reach_(reach), local_(column % column_chunk), chunk_(chunk), z_(grid.lines[2]) {
     const auto columns_x = static_cast<std::size_t>(grid.cells(0)) + 1;
     i_ = static_cast<std::int32_t>(column % columns_x);
     j_ = static_cast<std::int32_t>(column / columns_x);
@@ -118,20 +123,27 @@ class ColumnWalk {
       faces(1, k, count, dx_, [&](std::size_t b) { return sum(k, b).y_moment / dz + chunk_.shade[b].y_extent; });
     if (!(dx_ > 0 && dy_ > 0)) return;
     const double least_wall = negligible_wall * (dx_ * dy_ + dy_ * dz + dz * dx_);
-    bool present = false;
+    int present = 0;
     double total = 0;
-    const std::size_t first = chunk_.cells.values.size();
+    const std::size_t first = chunk_.cells.values.size(), doubted = chunk_.uncertain.size();
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const CellSum& s = sum(k, b);
       const double solid = snapped((s.height_moment / dz + chunk_.shade[b].area) / (dx_ * dy_));
       const double per_wall = s.wall > 0 ? 1.0 / s.wall : 0.0;
-      present = present || solid != 0 || s.wall > least_wall;
+      present += solid != 0 || s.wall > least_wall;
       total += solid;
+      const double doubt = rounding * (reach_[b] * s.wall + dz * (s.wall + chunk_.shade[b].wall));
+      if (doubt > largest_uncertainty * dx_ * dy_ * dz)
+        chunk_.uncertain.push_back({{i_, j_, k, count}, static_cast<std::int32_t>(b)});
       chunk_.cells.values.insert(chunk_.cells.values.end(),
                                  {solid, s.area[0], s.area[1], s.area[2], per_wall * s.weighted_velocity[0],
                                   per_wall * s.weighted_velocity[1], per_wall * s.weighted_velocity[2]});
     }
-    if (!present) return chunk_.cells.values.resize(first);
+    if (present == 0) {
+      chunk_.uncertain.resize(doubted);
+      return chunk_.cells.values.resize(first);
+    }
+    if (present > 1) chunk_.shared_cells += count;
     chunk_.row_of_k[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(chunk_.cells.size());
     chunk_.cells.place.push_back({i_, j_, k, count});
     if (total > 1.0 + 1e-9) chunk_.overlapping_cells += count;
@@ -144,6 +156,7 @@ class ColumnWalk {
       chunk_.shade[b].area += s.area[2];
       chunk_.shade[b].x_extent += s.x_extent;
       chunk_.shade[b].y_extent += s.y_extent;
+      chunk_.shade[b].wall += s.wall;
     }
   }
 
@@ -189,6 +202,7 @@ class ColumnWalk {
   }
 
   std::span<const BodySurface> bodies_;
+  std::span<const double> reach_;
   std::size_t local_;  // number of the column within the chunk
   ColumnChunk& chunk_;
   const std::vector<double>& z_;
@@ -220,7 +234,8 @@ void clear(ColumnChunk& chunk, std::size_t bodies, std::size_t slabs) {
   chunk.cells.clear();
   for (Rows& rows : chunk.faces) rows.clear();
   chunk.excesses.clear();
-  chunk.overlapping_cells = 0;
+  chunk.uncertain.clear();
+  chunk.shared_cells = chunk.overlapping_cells = 0;
   chunk.row_of_k.resize(slabs, -1);
   chunk.occupied.resize(slabs, 0);
   if (chunk.sums.size() != slabs * bodies) chunk.sums.assign(slabs * bodies, CellSum{});
@@ -260,12 +275,12 @@ void take_records(std::span<std::vector<ClippedChunk>> clipped, std::size_t begi
 
 }  // namespace
 
-void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies,
+void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies, std::span<const double> reach,
                  std::span<std::vector<ClippedChunk>> clipped, std::size_t begin, std::size_t end, ColumnChunk& chunk) {
   const auto slabs = static_cast<std::size_t>(grid.cells(2)) + 1;
   clear(chunk, bodies.size(), slabs);
   take_records(clipped, begin, chunk);
-  for (std::size_t column = begin; column < end; ++column) ColumnWalk(grid, bodies, column, chunk).run();
+  for (std::size_t column = begin; column < end; ++column) ColumnWalk(grid, bodies, reach, column, chunk).run();
   chunk.cells.sort(slabs);
   for (Rows& rows : chunk.faces) rows.sort(slabs);
 }

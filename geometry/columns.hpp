@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "geometry/clipped_triangles.hpp"
@@ -45,6 +46,7 @@ struct FaceExcess {
 /// What the bodies leave in the cells above the current one.
 struct ColumnShade {
   double area = 0, x_extent = 0, y_extent = 0;
+  double wall = 0;  ///< m^2, of all the surface above
 };
 
 /// Sums of the records of one body in one cell.
@@ -59,7 +61,8 @@ struct ColumnChunk {
   Rows cells;
   std::array<Rows, 3> faces;
   std::vector<FaceExcess> excesses;
-  std::int64_t overlapping_cells = 0;
+  std::vector<std::pair<Place, std::int32_t>> uncertain;  ///< cells and bodies
+  std::int64_t shared_cells = 0, overlapping_cells = 0;
   std::vector<std::int32_t> first;                ///< [bodies][column_chunk + 1], where the records of a column begin
   std::vector<PieceRecord*> record;               ///< by body and column, in the order of the triangles
   std::vector<std::int32_t> row;                  ///< per record: row of its cell, -1: no wall of any cell
@@ -70,9 +73,9 @@ struct ColumnChunk {
   std::vector<char> occupied;                     ///< scratch [cells along z + 1], there is surface in the slab
 };
 
-/// Sums up the columns [begin, end) (numbered i + (nx+1)*j) of all bodies into `chunk`. clipped: [bodies][chunks of
-/// triangles]; of them the records of these columns are noted in `chunk`.
-void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies,
+/// Sums up the columns [begin, end) (numbered i + (nx+1)*j) of all bodies into `chunk`. reach: [bodies], see
+/// PlacedSurface; clipped: [bodies][chunks of triangles]; of them the records of these columns are noted in `chunk`.
+void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies, std::span<const double> reach,
                  std::span<std::vector<ClippedChunk>> clipped, std::size_t begin, std::size_t end, ColumnChunk& chunk);
 
 }  // namespace polynya::geometry

@@ -40,6 +40,12 @@ struct CutFaces {
   POLYNYA_STATE(face, solid)
 };
 
+/// A body's volume in a cell whose bound of rounding is too large to be trusted.
+struct UncertainVolume {
+  std::int64_t entry;  ///< position in CutCells::cell
+  std::int32_t body;
+};
+
 /// What solids take from a grid. One entry per cell that contains solid, wall or debris, sorted by cell.
 struct CutCells {
   std::size_t bodies = 0;
@@ -54,18 +60,31 @@ struct CutCells {
   std::array<CutFaces, 3> faces;      ///< normal to x, y, z
   std::vector<WallPiece> pieces;      ///< sum of area per entry and body = -wall_area; mostly in the order of triangles
 
+  std::vector<UncertainVolume> uncertain;  ///< by cell; see recut_uncertain (exact_cut.hpp)
+
+  std::int64_t shared_cells = 0;       ///< cells that hold two bodies
   std::int64_t overlapping_cells = 0;  ///< cells whose solid volume exceeded the cell (bodies overlap) and was clamped
   std::int64_t corrected_faces = 0;    ///< faces whose fraction left [0, 1] (overlap, folded surface) and was clamped
   std::int64_t loose_edges = 0;        ///< open edges of the surfaces away from the walls of the grid: should be 0
   double squeezed_volume = 0;          ///< m^3 of debris that found no room
 
   POLYNYA_STATE(bodies, cell, solid_volume, debris_volume, body_volume, wall_area, wall_velocity, walled, faces, pieces,
-                overlapping_cells, corrected_faces, loose_edges, squeezed_volume)
+                uncertain, shared_cells, overlapping_cells, corrected_faces, loose_edges, squeezed_volume)
 };
+
+template <class Number>
+struct BasicCorner;
+struct PieceRecord;
+
+/// Clips the triangles [begin, end) of a placed surface by the planes of the grid and appends what they leave in cells.
+using ClipTriangles = void (*)(const std::array<LineLocator, 3>& lines, std::span<const BasicCorner<double>> corners,
+                               std::span<const std::int32_t> triangles, std::size_t begin, std::size_t end,
+                               std::vector<PieceRecord>& records);
 
 /// Cuts a grid by bodies, column by column: a point is solid when more surface leaves the body than enters it on the
 /// upward ray, so volumes, areas and fractions are sums of exact integrals over clipped triangles, and no point is ever
-/// classified. Exact up to rounding; deterministic for any number of threads; buffers are kept between cuts.
+/// classified. Exact up to rounding, of which every volume has a bound; deterministic for any number of threads;
+/// buffers are kept between cuts.
 ///
 /// Coincidence: vertices within 1e-12 of a cell from a grid plane count as lying on it, and then on the side the
 /// surface faces, so the wall of a grid-aligned body lies in the fluid cell beside it and the face between them is
@@ -79,6 +98,9 @@ class Cutter {
   Cutter& operator=(Cutter&&) noexcept;
 
   const GridLines& grid() const;
+
+  /// Clips by another method from now on than by doubles (exact_cut.hpp has one).
+  void set_method(ClipTriangles method);
 
   /// Cuts by all bodies; `out` is overwritten, its debris is zero. Throws GeometryError on bad indices or positions
   /// that are not finite.

@@ -114,19 +114,26 @@ const GridLines& Cutter::grid() const {
   return workspace_->grid;
 }
 
+void Cutter::set_method(ClipTriangles method) {
+  workspace_->method = method;
+}
+
 void Cutter::cut(std::span<const BodySurface> bodies, CutCells& out) {
   Workspace& work = *workspace_;
   out.bodies = bodies.size();
-  out.overlapping_cells = out.corrected_faces = out.loose_edges = 0;
+  out.shared_cells = out.overlapping_cells = out.corrected_faces = out.loose_edges = 0;
   out.squeezed_volume = 0;
   work.surfaces.resize(bodies.size());
+  work.reach.resize(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     work.surfaces[b].place(bodies[b], work.locators);
     out.loose_edges += work.surfaces[b].loose_edges();
+    work.reach[b] = work.surfaces[b].reach(work.locators);
   }
   work.clip(bodies);
   work.sum(bodies);
   work.collect(out);
+  work.collect_uncertain(out);
   work.collect_pieces(bodies, out);
   correct_excess(work.grid, work.excesses, out);
 }
@@ -141,7 +148,7 @@ void Cutter::Workspace::clip(std::span<const BodySurface> bodies) {
   compute::for_uneven_chunks(clips.size(), 1, [&](std::size_t at, std::size_t) {
     const auto [b, c] = clips[at];
     const std::size_t triangles = bodies[b].triangles.size() / 3, begin = c * triangle_chunk;
-    clipped[b][c].clip(locators, surfaces[b].corners(), bodies[b].triangles, begin,
+    clipped[b][c].clip(method, locators, surfaces[b].corners(), bodies[b].triangles, begin,
                        std::min(triangles, begin + triangle_chunk));
   });
 }
@@ -149,7 +156,7 @@ void Cutter::Workspace::clip(std::span<const BodySurface> bodies) {
 void Cutter::Workspace::sum(std::span<const BodySurface> bodies) {
   chunks.resize((columns() + column_chunk - 1) / column_chunk);
   compute::for_uneven_chunks(columns(), column_chunk, [&](std::size_t begin, std::size_t end) {
-    sum_columns(grid, bodies, clipped, begin, end, chunks[begin / column_chunk]);
+    sum_columns(grid, bodies, reach, clipped, begin, end, chunks[begin / column_chunk]);
   });
 }
 
@@ -164,6 +171,7 @@ void Cutter::Workspace::collect(CutCells& out) {
   for (const ColumnChunk& chunk : chunks) {
     excesses.insert(excesses.end(), chunk.excesses.begin(), chunk.excesses.end());
     out.overlapping_cells += chunk.overlapping_cells;
+    out.shared_cells += chunk.shared_cells;
   }
   resize(out, entries);
   for (std::size_t axis = 0; axis < 3; ++axis) resize(out.faces[axis], faces[axis]);
@@ -173,6 +181,16 @@ void Cutter::Workspace::collect(CutCells& out) {
       scatter_faces(chunks[c].faces[axis], grid.cells(0) + (axis == 0), grid.cells(1) + (axis == 1), out.faces[axis]);
     note_entries(chunks[c], out);
   });
+}
+
+void Cutter::Workspace::collect_uncertain(CutCells& out) const {
+  out.uncertain.clear();
+  for (const ColumnChunk& chunk : chunks)
+    for (const auto& [at, body] : chunk.uncertain)
+      for (std::int32_t k = at.k; k < at.k + at.count; ++k) {
+        const auto found = std::ranges::lower_bound(out.cell, grid.cell_index(at.i, at.j, k));
+        out.uncertain.push_back({found - out.cell.begin(), body});
+      }
 }
 
 void Cutter::Workspace::collect_pieces(std::span<const BodySurface> bodies, CutCells& out) {

@@ -10,6 +10,8 @@ namespace polynya::geometry {
 struct Cutter::Workspace {
   GridLines grid;
   std::array<LineLocator, 3> locators;
+  ClipTriangles method = clip_packed;
+  std::vector<double> reach;                       ///< [bodies], m, largest coordinate of grid and body
   std::vector<PlacedSurface> surfaces;             ///< [bodies]
   std::vector<std::vector<ClippedChunk>> clipped;  ///< [bodies][chunks of triangles]
   std::vector<std::array<std::size_t, 2>> clips;   ///< body and chunk of triangles of all of them
@@ -23,6 +25,7 @@ struct Cutter::Workspace {
   void clip(std::span<const BodySurface> bodies);
   void sum(std::span<const BodySurface> bodies);
   void collect(CutCells& out);
+  void collect_uncertain(CutCells& out) const;
   void collect_pieces(std::span<const BodySurface> bodies, CutCells& out);
 };
 

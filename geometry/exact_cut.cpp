@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "geometry/placed_surface.hpp"
@@ -18,6 +19,11 @@ using Point = Kernel::Point_3;
 using Triangle = Kernel::Triangle_3;
 using Box = Kernel::Iso_cuboid_3;
 using Vector = Kernel::Vector_3;
+
+/// The nearest double; the conversion of a number not yet evaluated is only good to 1e-5.
+double rounded(const Number& x) {
+  return CGAL::to_double(CGAL::exact(x));
+}
 
 /// The corners of triangle ∩ box; fewer than three when they only touch.
 std::vector<Point> intersect(const Triangle& triangle, const Box& box) {
@@ -82,7 +88,7 @@ class ExactBody {
       const bool in_ceiling = lowest(t) == high[2] && highest(t) == high[2];  // then both boxes hold it
       if (!in_ceiling) volume += height * sums_of(intersect(triangle, above), normal, floor).area.z();
     }
-    return {CGAL::to_double(volume), {CGAL::to_double(area.x()), CGAL::to_double(area.y()), CGAL::to_double(area.z())}};
+    return {rounded(volume), {rounded(area.x()), rounded(area.y()), rounded(area.z())}};
   }
 
  private:
@@ -133,6 +139,25 @@ double verify_sample(const CutCells& cut, std::span<const BodySurface> bodies, c
     }
   }
   return worst;
+}
+
+std::size_t recut_uncertain(CutCells& cut, std::span<const BodySurface> bodies, const GridLines& grid) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    std::optional<ExactBody> body;
+    for (const UncertainVolume& doubt : cut.uncertain) {
+      if (doubt.body != static_cast<std::int32_t>(b)) continue;
+      if (!body) body.emplace(grid, bodies[b]);
+      const auto entry = static_cast<std::size_t>(doubt.entry);
+      cut.body_volume[entry * cut.bodies + b] = body->cut(cut.cell[entry]).volume;
+    }
+  }
+  for (const UncertainVolume& doubt : cut.uncertain) {
+    const auto entry = static_cast<std::size_t>(doubt.entry);
+    double sum = 0;
+    for (std::size_t b = 0; b < cut.bodies; ++b) sum += cut.body_volume[entry * cut.bodies + b];
+    cut.solid_volume[entry] = std::clamp(sum, 0.0, grid.cell_volume(cut.cell[entry]));
+  }
+  return cut.uncertain.size();
 }
 
 }  // namespace polynya::geometry

@@ -23,4 +23,13 @@ ExactCell exact_cut(const GridLines& grid, std::int64_t cell, const BodySurface&
 double verify_sample(const CutCells& cut, std::span<const BodySurface> bodies, const GridLines& grid,
                      std::uint64_t seed, std::size_t count);
 
+/// Replaces the volumes that the cut is not certain of by exact ones; returns how many.
+std::size_t recut_uncertain(CutCells& cut, std::span<const BodySurface> bodies, const GridLines& grid);
+
+/// The cutter's clipping in exact numbers, for Cutter::set_method: what a triangle leaves in a cell is rounded once.
+/// Some two hundred times slower than doubles.
+void clip_exactly(const std::array<LineLocator, 3>& lines, std::span<const BasicCorner<double>> corners,
+                  std::span<const std::int32_t> triangles, std::size_t begin, std::size_t end,
+                  std::vector<PieceRecord>& records);
+
 }  // namespace polynya::geometry

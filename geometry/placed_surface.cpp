@@ -95,6 +95,15 @@ void PlacedSurface::place(const BodySurface& surface, const std::array<LineLocat
   attach_open_edges(lines);
 }
 
+double PlacedSurface::reach(const std::array<LineLocator, 3>& lines) const {
+  double most = 0;
+  for (const LineLocator& along : lines)
+    most = std::max({most, std::abs(along.lines().front()), std::abs(along.lines().back())});
+  for (const Corner& corner : corners_)
+    for (const double x : corner.x) most = std::max(most, std::abs(x));
+  return most;
+}
+
 void PlacedSurface::update_topology(const BodySurface& surface) {
   if (surface.positions.size() % 3 != 0 || surface.velocities.size() != surface.positions.size())
     throw GeometryError("a surface needs three coordinates and three velocities per vertex");

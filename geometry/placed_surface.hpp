@@ -20,6 +20,8 @@ class PlacedSurface {
 
   const std::vector<Corner>& corners() const { return corners_; }
   std::int64_t loose_edges() const { return loose_edges_; }
+  /// Largest coordinate of the vertices and the grid, m: what rounding is measured with.
+  double reach(const std::array<LineLocator, 3>& lines) const;
 
  private:
   struct Coincidence {

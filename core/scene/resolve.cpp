@@ -167,6 +167,7 @@ void read_parts(const Values& values, Scene& scene) {
   scene.contact.damping = values.number("contact.damping");
   scene.contact.two_way = values.text("contact.two_way");
   scene.contact.edges = values.text("contact.edges");
+  scene.overlap.method = values.text("overlap.method");
   if (values.has("vehicle")) scene.vehicle = read_vehicle(values);
   if (values.has("ice")) scene.ice = read_ice(values);
   if (scene.vehicle) check_hull(values, *scene.vehicle, scene.material(scene.vehicle->material));

@@ -151,6 +151,11 @@ struct Contact {
   std::string edges = "auto";    ///< "auto", "on" or "off": edges against edges
 };
 
+/// How solids cut the fluid's grid.
+struct OverlapCut {
+  std::string method = "packed";  ///< "packed": doubles, what is uncertain exactly; "exact": exact numbers throughout
+};
+
 /// Checkpoints, whichever comes first; 0: never.
 struct Checkpoint {
   double interval = 0;       ///< s of simulated time
@@ -185,6 +190,7 @@ struct Scene {
   std::optional<Ice> ice;
   std::optional<Fluid> fluid;
   Contact contact;
+  OverlapCut overlap;
   Checkpoint checkpoint;
   std::optional<Record> record;  ///< absent: nothing is recorded
   std::map<std::string, MaterialCard> materials;

@@ -113,6 +113,12 @@ void members(Part& p, Visit&& visit) {
 }
 
 template <class Part, class Visit>
+requires std::is_same_v<std::remove_const_t<Part>, OverlapCut>
+void members(Part& p, Visit&& visit) {
+  visit("method", p.method);
+}
+
+template <class Part, class Visit>
 requires std::is_same_v<std::remove_const_t<Part>, Checkpoint>
 void members(Part& p, Visit&& visit) {
   visit("interval", p.interval), visit("wall_interval", p.wall_interval);
@@ -150,7 +156,8 @@ requires std::is_same_v<std::remove_const_t<Part>, Scene>
 void members(Part& p, Visit&& visit) {
   visit("title", p.title), visit("name", p.name), visit("level", p.level), visit("symmetry", p.symmetry);
   visit("run", p.run), visit("resolution", p.resolution), visit("vehicle", p.vehicle), visit("ice", p.ice);
-  visit("fluid", p.fluid), visit("contact", p.contact), visit("checkpoint", p.checkpoint);
+  visit("fluid", p.fluid), visit("contact", p.contact), visit("overlap", p.overlap);
+  visit("checkpoint", p.checkpoint);
   visit("record", p.record);
   visit("materials", p.materials), visit("effects", p.effects), visit("participants", p.participants);
 }

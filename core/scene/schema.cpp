@@ -139,6 +139,9 @@ std::vector<KeyRule> solid_rules() {
              "the vehicle's vertices against the ice's faces as well; auto: where the vehicle's mesh is finer"),
       choice("contact.edges", {"auto", "on", "off"}, "auto",
              "crossing edges of vehicle and ice against each other; auto: on"),
+      choice(
+          "overlap.method", {"packed", "exact"}, "packed",
+          "how solids cut the fluid's grid: in doubles, exactly where their rounding matters; or exactly throughout"),
   };
 }
 

@@ -63,7 +63,8 @@ TEST(Motion, BodyAndFluidMovingTogetherFeelNothing) {
     worst = std::max(worst, largest_pressure_change(fluid));
   }
   const double scale = 1000 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  EXPECT_LT(worst / scale, 1e-5);
+  std::printf("largest pressure error: %.1e rho V^2\n", worst / scale);
+  EXPECT_LT(worst / scale, 1e-7);
   EXPECT_GT(v[2] * fluid.time, 1.2 * side / 12);  // it has crossed planes of the grid
 }
 

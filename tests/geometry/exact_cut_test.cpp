@@ -77,6 +77,58 @@ TEST(ExactCut, CoincidentPlanesGiveTheSameVolumes) {
   EXPECT_LT(verify_sample(cut, bodies, cubes, 3, 40), 1e-13);
 }
 
+TEST(ExactCut, ExactNumbersInTheClippingGiveTheSameCutToRounding) {
+  std::mt19937 random(29);
+  const Shape body = random_body(0, random);
+  Cutter packed(grid), exact(grid);
+  exact.set_method(clip_exactly);
+  CutCells a, b;
+  packed.cut(std::array{body.surface()}, a);
+  exact.cut(std::array{body.surface()}, b);
+  ASSERT_EQ(a.cell, b.cell);
+  for (std::size_t e = 0; e < a.cell.size(); ++e) {
+    const double volume = grid.cell_volume(a.cell[e]), face = std::cbrt(volume * volume);
+    EXPECT_NEAR(a.body_volume[e] / volume, b.body_volume[e] / volume, 1e-13);
+    for (std::size_t d = 0; d < 3; ++d)
+      EXPECT_NEAR(a.wall_area[3 * e + d] / face, b.wall_area[3 * e + d] / face, 1e-13);
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    ASSERT_EQ(a.faces[axis].face, b.faces[axis].face);
+    for (std::size_t f = 0; f < a.faces[axis].face.size(); ++f)
+      EXPECT_NEAR(a.faces[axis].solid[f], b.faces[axis].solid[f], 1e-13);
+  }
+  ASSERT_EQ(a.pieces.size(), b.pieces.size());
+}
+
+TEST(ExactCut, VolumesThatRoundingSpoilsAreKnownAndRecut) {
+  // A kilometre from the origin doubles resolve 1e-13 m, with cells of 1 mm: the volumes are wrong in the tenth digit.
+  const double far = 1000, size = 1e-3;
+  const GridLines cubes{{shapes::lines(far, far + 8 * size, 8), shapes::lines(far, far + 8 * size, 8),
+                         shapes::lines(far, far + 8 * size, 8)}};
+  std::mt19937 random(31);
+  Shape body = shapes::sphere(2);
+  shapes::rotate_randomly(body, random);
+  shapes::scale_and_move(body, {3 * size, 3 * size, 3 * size}, {far + 4 * size, far + 4 * size, far + 4 * size});
+  Cutter cutter(cubes);
+  CutCells cut;
+  const std::array bodies{body.surface()};
+  cutter.cut(bodies, cut);
+  const CutCells before = cut;
+  const std::size_t recut = recut_uncertain(cut, bodies, cubes);
+  EXPECT_GT(recut, 100u);
+  EXPECT_LT(verify_sample(cut, bodies, cubes, 5, 60), 1e-11);
+  // The bound that made them uncertain was one: no cell was off by more than a few times what it was doubted for.
+  double worst = 0;
+  for (std::size_t e = 0; e < cut.cell.size(); ++e)
+    worst = std::max(worst, std::abs(cut.body_volume[e] - before.body_volume[e]) / cubes.cell_volume(cut.cell[e]));
+  EXPECT_GT(worst, 1e-13);
+  EXPECT_LT(worst, 32 * 0x1p-53 * far / size * 4);
+  // Near the origin nothing is in doubt.
+  const Shape near = random_body(1, random);
+  Cutter(grid).cut(std::array{near.surface()}, cut);
+  EXPECT_TRUE(cut.uncertain.empty());
+}
+
 TEST(SurfaceCheck, AcceptsClosedOutwardSurfacesAndMeasuresThem) {
   for (const Shape& body : {shapes::sphere(2), shapes::cylinder(12), shapes::box(3)}) {
     const SurfaceCheck check = check_surface(body.positions, body.triangles);

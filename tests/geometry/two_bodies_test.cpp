@@ -50,6 +50,7 @@ TEST(TwoBodies, InOneCellAddUpAndEachIsCutAsIfAlone) {
   for (std::size_t e = 0; e < pair.cut.cell.size(); ++e)
     shared += pair.cut.body_volume[2 * e] > 0 && pair.cut.body_volume[2 * e + 1] > 0;
   EXPECT_GT(shared, 0u);
+  EXPECT_GE(pair.cut.shared_cells, static_cast<std::int64_t>(shared));  // or wall of one in the plane of a side
   for (std::size_t body : {0u, 1u}) pair.expect_cut_as_if_alone(body);
   EXPECT_NEAR(total_volume(pair.cut), shapes::volume(pair.ball) + shapes::volume(pair.plate), 1e-12);
 }
