@@ -1,9 +1,6 @@
-#include <omp.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <memory>
@@ -56,25 +53,6 @@ double resident_memory() {
   double all = 0, resident = 0;
   file >> all >> resident;
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
-double wall_seconds(const std::function<void()>& call) {
-  const auto start = std::chrono::steady_clock::now();
-  call();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Shortest wall time of a call with one thread over that with two, taken in turns.
-double speedup_of_two_threads(int repetitions, const std::function<void()>& call) {
-  std::array<double, 2> shortest{1e300, 1e300};
-  for (int k = 0; k < repetitions; ++k) {
-    for (int threads = 1; threads <= 2; ++threads) {
-      omp_set_num_threads(threads);
-      shortest[threads - 1] = std::min(shortest[threads - 1], wall_seconds(call));
-    }
-  }
-  omp_set_num_threads(1);
-  return shortest[0] / shortest[1];
 }
 
 }  // namespace

@@ -23,31 +23,64 @@ HexMesh cube(int n, double side) {
   return mesh;
 }
 
-/// ns per element and cycle (positions, forces, velocities) of a 64^3 block that swings, `speed` m/s at most.
-double cycle(const Law& law, double speed) {
-  const int n = 64;
-  auto solid = make_solid("block", cube(n, 0.064), law);
+struct Swing {
+  ExplicitSolid solid;
+  std::vector<double> none;
+  double step;
+};
+
+/// A block of n^3 elements that swings, `speed` m/s at most.
+Swing swing(const Law& law, int n, double speed) {
+  Swing block{make_solid("block", cube(n, 1e-3 * n), law), {}, 0};
+  ExplicitSolid& solid = block.solid;
   for (std::size_t k = 0; k < solid.node_count(); ++k)
     for (std::size_t i = 0; i < 3; ++i)
       solid.velocities[3 * k + i] =
           speed * std::sin(200 * solid.mesh.nodes[3 * k + (i + 1) % 3] + static_cast<double>(i));
-  const std::vector<double> none(3 * solid.node_count(), 0.0);
-  const double dt = 0.5 * stable_step(solid);
-  const int cycles = 4;
-  const double time = shortest_time(5, [&] {
-    for (int c = 0; c < cycles; ++c) {
-      advance_positions(solid, dt);
-      internal_forces(solid, dt);
-      advance_velocities(solid, none, dt, dt);
-    }
-  });
-  return 1e9 * time / (cycles * static_cast<double>(solid.element_count()));
+  block.none.assign(3 * solid.node_count(), 0.0);
+  block.step = 0.5 * stable_step(solid);
+  return block;
 }
+
+/// Positions, forces, velocities, `cycles` times.
+void advance(Swing& block, int cycles) {
+  for (int c = 0; c < cycles; ++c) {
+    advance_positions(block.solid, block.step);
+    internal_forces(block.solid, block.step);
+    advance_velocities(block.solid, block.none, block.step, block.step);
+  }
+}
+
+constexpr int cycles = 4;
+
+/// ns per element and cycle of n^3 elements, the shortest of `repetitions`.
+double cycle(const Law& law, int n, double speed, int repetitions) {
+  Swing block = swing(law, n, speed);
+  const double time = shortest_time(repetitions, [&] { advance(block, cycles); });
+  return 1e9 * time / (cycles * static_cast<double>(block.solid.element_count()));
+}
+
+const Elastic elastic_ice{900, 8.13e9, 4.44e9};
 
 }  // namespace
 
 std::vector<Figure> hexahedron_elastic() {
-  return {{"ice.hexahedron_elastic_ns", cycle(Elastic{900, 8.13e9, 4.44e9}, 1)}};
+  return {{"ice.hexahedron_elastic_ns", cycle(elastic_ice, 64, 1, 5)}};
+}
+
+/// The elastic kernel on about 1e5, 1e6 and 4e6 elements: the exponent of the time over the number, of the two ends (1:
+/// linear), and what a second thread gains at 1e6.
+std::vector<Figure> hexahedron_scaling() {
+  const int sides[] = {46, 100, 159};
+  const double small = cycle(elastic_ice, sides[0], 1, 5), middle = cycle(elastic_ice, sides[1], 1, 3),
+               large = cycle(elastic_ice, sides[2], 1, 2);
+  const double numbers = 3 * std::log(static_cast<double>(sides[2]) / sides[0]);
+  Swing block = swing(elastic_ice, sides[1], 1);
+  return {{"ice.hexahedron_scaling_1e5_ns", small},
+          {"ice.hexahedron_scaling_1e6_ns", middle},
+          {"ice.hexahedron_scaling_4e6_ns", large},
+          {"ice.hexahedron_scaling_exponent", 1 + std::log(large / small) / numbers},
+          {"ice.hexahedron_two_threads_speedup", speedup_of_two_threads(5, [&] { advance(block, cycles); })}};
 }
 
 /// Fresh-water ice; the shear of the swing fractures a part of it, so that all branches of the law are taken.
@@ -65,7 +98,7 @@ std::vector<Figure> hexahedron_jh2() {
                                                          {"maximum_tensile_pressure", 1e6},
                                                          {"damage_constant", 0.05},
                                                          {"damage_exponent", 0.5}});
-  return {{"ice.hexahedron_jh2_ns", cycle(ice, 5)}};
+  return {{"ice.hexahedron_jh2_ns", cycle(ice, 64, 5, 5)}};
 }
 
 }  // namespace polynya::bench

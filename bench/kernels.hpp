@@ -18,10 +18,14 @@ double shortest_time(int repetitions, const std::function<void()>& call);
 /// Processor time of this thread in one call, s.
 double time_of(const std::function<void()>& call);
 
+/// Shortest wall time of a call with one thread over that with two, taken in turns; a gain only on cores that are free.
+double speedup_of_two_threads(int repetitions, const std::function<void()>& call);
+
 // One function per file; each runs on one thread, and says so where it also tries two.
 std::vector<Figure> machine_triad();
 std::vector<Figure> hexahedron_elastic();
 std::vector<Figure> hexahedron_jh2();
+std::vector<Figure> hexahedron_scaling();
 std::vector<Figure> particle();
 std::vector<Figure> clip();
 std::vector<Figure> contact_evaluate();

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <limits>
@@ -16,6 +18,12 @@ double processor_seconds() {
   timespec time;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double wall_seconds(const std::function<void()>& call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 }  // namespace
 
@@ -32,6 +40,18 @@ double shortest_time(int repetitions, const std::function<void()>& call) {
   return shortest;
 }
 
+double speedup_of_two_threads(int repetitions, const std::function<void()>& call) {
+  std::array<double, 2> shortest{1e300, 1e300};
+  for (int k = 0; k < repetitions; ++k) {
+    for (int threads = 1; threads <= 2; ++threads) {
+      omp_set_num_threads(threads);
+      shortest[threads - 1] = std::min(shortest[threads - 1], wall_seconds(call));
+    }
+  }
+  omp_set_num_threads(1);
+  return shortest[0] / shortest[1];
+}
+
 namespace {
 
 struct Kernel {
@@ -44,6 +64,7 @@ const Kernel kernels[] = {
     {"machine.triad", machine_triad},
     {"ice.hexahedron_elastic", hexahedron_elastic},
     {"ice.hexahedron_jh2", hexahedron_jh2},
+    {"ice.hexahedron_scaling", hexahedron_scaling},
     {"ice.particle", particle},
     {"geometry.clip", clip},
     {"contact.evaluate", contact_evaluate},
