@@ -5,6 +5,8 @@
 namespace polynya::ice {
 namespace {
 
+constexpr double fractured = 0.9;  // damage
+
 double most_damage(const IceBody& ice) {
   return *std::max_element(ice.solid.element.damage.begin(), ice.solid.element.damage.end());
 }
@@ -12,17 +14,16 @@ double most_damage(const IceBody& ice) {
 }  // namespace
 
 void record(BendingRecord& record, const BendingRig& rig, const IceBody& beam, double dt) {
-  const double load = roller_load(rig, beam);
+  const double damage = most_damage(beam);
+  record.broken = record.broken || damage > fractured;
   if (record.broken) return;
+  const double load = roller_load(rig, beam);
   record.peak_load = std::max(record.peak_load, load);
   record.load_time += load * dt;
   record.duration += dt;
-  const double damage = most_damage(beam);
-  if (damage == 0) {
-    record.sag_load += sag(rig, beam) * load;
-    record.load_load += load * load;
-  }
-  record.broken = damage > 0.9 && load < 0.5 * record.peak_load;
+  if (damage > 0) return;
+  record.sag_load += sag(rig, beam) * load;
+  record.load_load += load * load;
 }
 
 nlohmann::json findings(const BendingRecord& record, const BendingRig& rig, const IceBody& beam) {

@@ -5,10 +5,11 @@
 
 namespace polynya::ice {
 
-/// What a bending test leaves: its load until the beam is broken, and its sag while it is intact.
+/// What a bending test leaves: its load until the first element is fractured (afterwards waves of the break knock on
+/// the rollers), and its sag while it is intact.
 struct BendingRecord {
   double peak_load = 0;                ///< N
-  double load_time = 0, duration = 0;  ///< N s and s, until broken: the load has fallen below half of its peak
+  double load_time = 0, duration = 0;  ///< N s and s, until broken
   bool broken = false;
   double sag_load = 0, load_load = 0;  ///< m N and N^2, sums over samples of the intact beam
 

@@ -21,7 +21,7 @@ from launcher.series import read_series  # noqa: E402
 def draw(target: Path, runs: list[Path]) -> None:
     style.apply()
     figure, (curves, cut) = pyplot.subplots(2, 1, figsize=(7.4, 5.4), height_ratios=(3, 1.3))
-    colours = (style.INK, style.VERMILION, "#0072b2", "#009e73")
+    colours = (style.INK, style.VERMILION, style.BLUE, style.GREEN)
     for run, colour in zip(runs, colours):
         scene = json.loads((run / "scene.json").read_text())
         series = read_series(run / "series" / "ice.csv")
