@@ -19,7 +19,7 @@ Account account_of(const IceBody& ice) {
   account.internal = elements.internal + sum_of(ice.particles.stress_work) + ice.own_contact.stored;
   account.hourglass = elements.hourglass;
   account.viscous = elements.viscous + books.particle_heat.total + ice.own_contact.dissipated;
-  account.conversion_heat = books.conversion_heat;
+  account.conversion_heat = books.conversion_heat + books.lost_kinetic;
   account.boundary_flux = elements.boundary_flux;
   account.gravity_work = books.node_gravity_work.total + books.particle_gravity_work.total;
   account.external_work = elements.external_work - books.node_pair_work.total - books.node_gravity_work.total +

@@ -16,9 +16,10 @@ struct Account {
   double hourglass = 0;
   double viscous =
       0;  ///< bulk viscosity of elements, artificial viscosity of particles, losses of the ice's own contact
-  double conversion_heat = 0;  ///< motion within elements that became particles
-  double boundary_flux = 0;    ///< out through non-reflecting sides
-  double external_work = 0;    ///< done by loads and by what holds prescribed nodes
+  double conversion_heat =
+      0;                     ///< motion within elements that became particles; all motion of those that became nothing
+  double boundary_flux = 0;  ///< out through non-reflecting sides
+  double external_work = 0;  ///< done by loads and by what holds prescribed nodes
   double gravity_work = 0;
   double step_change = 0;                                ///< see continuum::EnergyAccount
   std::array<double, 3> momentum{}, boundary_impulse{};  ///< N s, at t(n+1/2)

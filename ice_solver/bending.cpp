@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -40,6 +41,26 @@ std::vector<std::int32_t> lines_at(IceBody& beam, double span, double z, double&
   return nodes;
 }
 
+/// Nodes of the section x at half height; where no line of nodes runs there, those of the two nearest ones.
+std::vector<std::int32_t> axis_at(const IceBody& beam, double x) {
+  const auto& z = beam.options.z;
+  const double middle = 0.5 * (z.front() + z.back());
+  const double reach = std::abs(nearest(z, middle) - middle) + 1e-9;
+  std::vector<std::int32_t> nodes;
+  for (const double line : z)
+    if (std::abs(line - middle) <= reach) add_line(nodes, beam, x, line);
+  return nodes;
+}
+
+double mean_sinking(const std::vector<std::int32_t>& nodes, const IceBody& beam) {
+  double sum = 0;
+  for (const std::int32_t node : nodes) {
+    const std::size_t k = 3 * static_cast<std::size_t>(node) + 2;
+    sum += beam.solid.mesh.nodes[k] - beam.solid.positions[k];
+  }
+  return sum / static_cast<double>(nodes.size());
+}
+
 double vertical_force(const std::vector<std::int32_t>& nodes, const IceBody& beam) {
   double sum = 0;
   for (const std::int32_t n : nodes) sum += beam.solid.internal_force[3 * static_cast<std::size_t>(n) + 2];
@@ -62,6 +83,10 @@ BendingRig make_bending_rig(IceBody& beam, double support_span, double load_span
   rig.multiplicity = (beam.options.planes.x ? 2 : 1) * (beam.options.planes.y ? 2 : 1);
   rig.supports = lines_at(beam, support_span, beam.options.z.front(), rig.support_span);
   rig.loads = lines_at(beam, load_span, beam.options.z.back(), rig.load_span);
+  rig.width = (beam.options.planes.y ? 2 : 1) * (beam.options.y.back() - beam.options.y.front());
+  rig.height = beam.options.z.back() - beam.options.z.front();
+  rig.support_axis = axis_at(beam, nearest(beam.options.x, 0.5 * support_span));
+  rig.middle_axis = axis_at(beam, nearest(beam.options.x, 0));
   return rig;
 }
 
@@ -84,6 +109,50 @@ double roller_load(const BendingRig& rig, const IceBody& beam) {
 
 double support_reaction(const BendingRig& rig, const IceBody& beam) {
   return -rig.multiplicity * vertical_force(rig.supports, beam);
+}
+
+double sag(const BendingRig& rig, const IceBody& beam) {
+  return mean_sinking(rig.middle_axis, beam) - mean_sinking(rig.support_axis, beam);
+}
+
+double timoshenko_flexibility(const BendingRig& rig, const continuum::Elastic& law) {
+  const double k = law.bulk_modulus, g = law.shear_modulus, youngs_modulus = 9 * k * g / (3 * k + g);
+  const double nu = youngs_modulus / (2 * g) - 1, shear_coefficient = 10 * (1 + nu) / (12 + 11 * nu);
+  const double area = rig.width * rig.height, inertia = area * rig.height * rig.height / 12, a = rig.arm();
+  return a * (3 * rig.support_span * rig.support_span - 4 * a * a) / (48 * youngs_modulus * inertia) +
+         a / (2 * shear_coefficient * g * area);
+}
+
+double outer_fibre_stress(const BendingRig& rig, double load) {
+  return 3 * load * rig.arm() / (rig.width * rig.height * rig.height);
+}
+
+Cracks count_cracks(const BendingRig& rig, const IceBody& beam) {
+  struct Section {
+    int elements = 0, fractured = 0;
+  };
+  std::map<long, Section> sections;  // by the number of the grid line that begins it
+  const auto& x = beam.options.x;
+  for (std::size_t e = 0; e < beam.solid.element_count(); ++e) {
+    const double left = beam.solid.mesh.nodes[3 * static_cast<std::size_t>(beam.solid.mesh.elements[8 * e])];
+    Section& section = sections[std::lower_bound(x.begin(), x.end(), left - 1e-9) - x.begin()];
+    ++section.elements;
+    if (beam.solid.element.damage[e] > 0.9) ++section.fractured;
+  }
+  Cracks cracks;
+  long last = -2;
+  for (const auto& [i, section] : sections) {
+    if (2 * section.fractured < section.elements) continue;
+    if (i != last + 1) {
+      const auto k = static_cast<std::size_t>(i);
+      const bool on_plane = beam.options.planes.x && i == 0;  // one with its mirror image
+      const int count = beam.options.planes.x && !on_plane ? 2 : 1;
+      cracks.all += count;
+      if (std::abs(0.5 * (x[k] + x[k + 1])) < 0.5 * rig.load_span) cracks.between_loads += count;
+    }
+    last = i;
+  }
+  return cracks;
 }
 
 }  // namespace polynya::ice

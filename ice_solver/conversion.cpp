@@ -49,11 +49,19 @@ void convert(IceBody& ice, std::size_t e) {
     square += birth.velocity[c] * birth.velocity[c];
     ice.books.angular_momentum_defect[c] += spin[c];
   }
+  ice.books.removed_since_step += removed.kinetic_energy;
+  ice.books.broken_mass += birth.mass;
+  if (ice.options.debris == Debris::none) {
+    ice.books.lost_kinetic += removed.kinetic_energy;
+    ice.books.lost_mass += birth.mass;
+    // Its momentum leaves as if through the boundary, so that the balance of momentum holds.
+    for (std::size_t c = 0; c < 3; ++c) ice.books.boundary_impulse[c] -= removed.momentum[c];
+    return;
+  }
   const double kinetic = 0.5 * birth.mass * square;
   ice.books.conversion_heat += removed.kinetic_energy - kinetic;
   ice.books.particle_kinetic += kinetic;
-  ice.books.removed_since_step += removed.kinetic_energy;
-  ice.books.broken_mass += birth.mass;
+  if (ice.options.debris == Debris::free_masses) birth.state.stress = {};
   add_particle(ice.particles, solid.law, birth);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/compute/parallel.hpp"
+#include "ice_solver/ball.hpp"
 
 namespace polynya::ice {
 namespace {
@@ -38,6 +39,12 @@ void renew_list(IceBody& ice) {
   ice.steps_since_build = 0;
 }
 
+continuum::HexMesh mesh_of(const IceOptions& options) {
+  if (!options.ball) return plate_mesh(options.x, options.y, options.z);
+  const BallOptions& ball = *options.ball;
+  return ball_mesh(ball.radius, ball.element, ball.lowest + ball.radius, options.planes);
+}
+
 PairViscosity viscosity_of(const IceBody& ice) {
   return {ice.options.viscosity_linear, ice.options.viscosity_quadratic,
           continuum::longitudinal_wave_speed(ice.solid.law)};
@@ -48,8 +55,11 @@ PairViscosity viscosity_of(const IceBody& ice) {
 IceBody make_ice(const IceOptions& options) {
   IceBody ice;
   ice.options = options;
-  ice.solid = continuum::make_solid("ice", plate_mesh(options.x, options.y, options.z), options.law, options.numerics);
+  ice.solid = continuum::make_solid("ice", mesh_of(options), options.law, options.numerics);
   constrain_plate(ice.solid, options.planes, options.sides);
+  if (options.held_rim > 0) hold_rim(ice.solid, options.planes, options.held_rim);
+  if (options.ball)
+    for (std::size_t n = 0; n < ice.solid.node_count(); ++n) ice.solid.velocities[3 * n + 2] = -options.ball->speed;
   ice.face_neighbours = continuum::face_neighbours(ice.solid.mesh);
   if (options.own_contact) {
     // The size of the smallest elements sets how far candidates are looked for.
@@ -93,7 +103,7 @@ void internal_forces(IceBody& ice, double dt) {
   const auto lap = ice.watch.lap("particles");
   std::fill(ice.pair_force.begin(), ice.pair_force.end(), 0.0);
   Particles& particles = ice.particles;
-  if (particles.count() == 0) return;
+  if (particles.count() == 0 || ice.options.debris != Debris::particles) return;
 
   refresh_background(ice.background, ice.solid);
   ++ice.steps_since_build;
@@ -110,6 +120,7 @@ void internal_forces(IceBody& ice, double dt) {
 }
 
 double stable_step(const IceBody& ice) {
+  if (ice.options.debris != Debris::particles) return continuum::stable_step(ice.solid);
   return std::min(continuum::stable_step(ice.solid), particle_stable_step(ice.particles, ice.solid.law));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,13 +22,25 @@
 /// A start: internal_forces(ice, 0); advance_velocities(ice, {}, 0, dt).
 namespace polynya::ice {
 
+/// What a failed element becomes: an SPH particle; a mass that feels loads only; nothing.
+enum class Debris { particles, free_masses, none };
+
+/// A ball in place of the plate: its lowest point at `lowest`, moving down.
+struct BallOptions {
+  double radius = 0, element = 0, lowest = 0;  ///< m
+  double speed = 0;                            ///< m/s
+};
+
 struct IceOptions {
   std::vector<double> x, y, z;  ///< m, grid lines of the modelled part
   continuum::Law law;
   continuum::Numerics numerics;
   SymmetryPlanes planes;
   Sides sides = Sides::free;
+  double held_rim = 0;              ///< m, width of the rim of the upper face that is held
+  std::optional<BallOptions> ball;  ///< then the grid lines mean nothing
   bool conversion = true;
+  Debris debris = Debris::particles;
   double critical_strain = 0.35;
   double collapsed_step =
       0.1;             ///< an element is also converted when its stable step falls below this part of its first
@@ -59,6 +72,8 @@ struct IceBooks {
   double conversion_heat = 0;                       ///< relative motion within elements that became one particle
   std::array<double, 3> angular_momentum_defect{};  ///< angular momentum lost by the same
   double broken_mass = 0;                           ///< kg
+  double lost_kinetic = 0;                          ///< of elements that became nothing
+  double lost_mass = 0;                             ///< kg, likewise
   ConversionCount converted;
   double particle_kinetic = 0;
   double removed_since_step = 0;  ///< kinetic energy of elements converted after the last step

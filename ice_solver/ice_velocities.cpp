@@ -30,7 +30,7 @@ struct Powers {
 Powers powers(const IceBody& ice, std::span<const double> particle_loads) {
   const Points& points = ice.particles.points;
   Powers p{};  // nothing to sum before there are particles or weight
-  if (points.count() > 0) {
+  if (points.count() > 0 && ice.options.debris == Debris::particles) {
     p.node_pair = product(ice.pair_force, ice.solid.velocities);
     p.viscous = -product(points.viscous_force, points.velocity) -
                 product(ice.background.points.viscous_force, ice.background.points.velocity);
@@ -148,7 +148,8 @@ void advance_velocities(IceBody& ice, std::span<const double> node_loads, std::s
   const Powers closing = powers(ice, particle_loads);
   continuum::advance_velocities(ice.solid, ice.nodal_force, dt_previous, dt_next);
   advance_particles(ice, particle_loads, dt_previous, dt_next);
-  if (ice.particles.count() > 0) refresh_background(ice.background, ice.solid);  // its velocities
+  if (ice.particles.count() > 0 && ice.options.debris == Debris::particles)
+    refresh_background(ice.background, ice.solid);  // its velocities
   const Powers opening = powers(ice, particle_loads);
   const auto book = [&](Trapezoid& account, double Powers::*which) {
     account.add(0.5 * dt_previous * closing.*which, 0.5 * dt_next * opening.*which);

@@ -86,4 +86,17 @@ void constrain_plate(continuum::ExplicitSolid& plate, SymmetryPlanes planes, Sid
   }
 }
 
+void hold_rim(continuum::ExplicitSolid& plate, SymmetryPlanes planes, double width) {
+  double top = plate.mesh.nodes[2];
+  for (std::size_t n = 0; n < plate.node_count(); ++n) top = std::max(top, plate.mesh.nodes[3 * n + 2]);
+  const auto sides = outer_planes(plate.mesh, planes);
+  for (std::size_t n = 0; n < plate.node_count(); ++n) {
+    const double* at = &plate.mesh.nodes[3 * n];
+    const bool in_rim = std::any_of(sides.begin(), sides.end(), [&](const continuum::Plane& side) {
+      return side.normal[0] * at[0] + side.normal[1] * at[1] > side.offset - width - tolerance;
+    });
+    if (in_rim && at[2] > top - tolerance) plate.fixed[n] = 7;
+  }
+}
+
 }  // namespace polynya::ice

@@ -22,6 +22,9 @@ continuum::HexMesh plate_mesh(const std::vector<double>& x, const std::vector<do
 /// waves leaving through non-reflecting ones. The plate must begin at 0 where it is cut by a plane.
 void constrain_plate(continuum::ExplicitSolid& plate, SymmetryPlanes planes, Sides sides);
 
+/// Holds the nodes of the upper face that lie within `width` (m) of the sides that are not symmetry planes.
+void hold_rim(continuum::ExplicitSolid& plate, SymmetryPlanes planes, double width);
+
 /// The symmetry planes as the surface extraction wants them: faces on them cannot be touched.
 std::vector<continuum::Plane> excluded_planes(SymmetryPlanes planes);
 

@@ -7,9 +7,11 @@
 #include "core/results/checkpoint_folder.hpp"
 #include "core/results/time_series.hpp"
 #include "ice_solver/account.hpp"
-#include "ice_solver/bending.hpp"
+#include "ice_solver/bending_record.hpp"
 #include "ice_solver/fields.hpp"
+#include "ice_solver/rigid_target.hpp"
 #include "ice_solver/run.hpp"
+#include "ice_solver/scene_options.hpp"
 
 namespace polynya::ice {
 namespace {
@@ -22,18 +24,34 @@ std::vector<results::Column> columns() {
           {"hourglass", "J"},     {"viscous", "J"},       {"conversion_heat", "J"},
           {"boundary_flux", "J"}, {"external_work", "J"}, {"gravity_work", "J"},
           {"balance", "J"},       {"broken_mass", "kg"},  {"particles", ""},
-          {"most_damage", ""},    {"step", "s"}};
+          {"most_damage", ""},    {"sag", "m"},           {"stored_in_contact", "J"},
+          {"impulse", "N s"},     {"step", "s"}};
 }
+
+/// What acts on the ice when it runs alone.
+struct Experiment {
+  std::optional<BendingRig> rig;
+  BendingRecord bending;
+  std::optional<RigidTarget> target;
+  std::vector<double> node_loads, particle_loads;
+  double balance_at_start = 0, kinetic_at_start = 0;  ///< J, of the modelled part
+
+  POLYNYA_STATE(rig, bending, target, node_loads, particle_loads, balance_at_start, kinetic_at_start)
+};
 
 double most_damage(const IceBody& ice) {
   return *std::max_element(ice.solid.element.damage.begin(), ice.solid.element.damage.end());
 }
 
 /// Extensive values are those of the full model.
-void append_row(results::TimeSeries& series, const IceRun& run, const std::optional<BendingRig>& rig, double factor,
+void append_row(results::TimeSeries& series, const IceRun& run, const Experiment& experiment, double factor,
                 double dt) {
   const Account a = account_of(run.ice);
-  const double load = rig ? roller_load(*rig, run.ice) : 0, reaction = rig ? support_reaction(*rig, run.ice) : 0;
+  const auto& rig = experiment.rig;
+  const auto& target = experiment.target;
+  const double push = target ? factor * target->force : 0;
+  const double load = rig ? roller_load(*rig, run.ice) : push;
+  const double reaction = rig ? support_reaction(*rig, run.ice) : push;
   const double row[] = {run.ice.solid.time,
                         load,
                         reaction,
@@ -50,6 +68,9 @@ void append_row(results::TimeSeries& series, const IceRun& run, const std::optio
                         factor * a.broken_mass,
                         a.particles,
                         most_damage(run.ice),
+                        rig ? sag(*rig, run.ice) : 0,
+                        target ? factor * target->stored : 0,
+                        target ? factor * target->impulse : 0,
                         dt};
   series.append(row);
 }
@@ -64,30 +85,57 @@ std::optional<BendingRig> rig_of(IceRun& run) {
   return rig;
 }
 
+std::optional<RigidTarget> target_of(const IceRun& run, double step) {
+  if (!run.ice.options.ball) return std::nullopt;
+  return make_rigid_target(run.ice, run.scene.ice->lower_face, run.scene.contact.stiffness_factor, step);
+}
+
+void load_ice(Experiment& experiment, const IceBody& ice) {
+  if (experiment.target) push_back(*experiment.target, ice, experiment.node_loads, experiment.particle_loads);
+}
+
+/// Impulse of the plate over the momentum of the ball, force at its greatest, and what is missing of the energy: that
+/// of the account, and what the plate did on the ball beyond what its springs hold or released. Share of kinetic
+/// energy.
+nlohmann::json ball_findings(const IceRun& run, const Experiment& experiment, double peak_force) {
+  const Account a = account_of(run.ice);
+  const RigidTarget& target = *experiment.target;
+  const double momentum = a.mass * run.ice.options.ball->speed, start = experiment.kinetic_at_start;
+  const double factor = multiplicity(run.scene);
+  return {{"momentum", factor * momentum},
+          {"impulse", factor * target.impulse},
+          {"impulse_over_momentum", target.impulse / momentum},
+          {"peak_force", factor * peak_force},
+          {"released_by_contact", target.released / start},
+          {"energy_error", (std::abs(a.balance() - experiment.balance_at_start) +
+                            std::abs(a.external_work + target.stored + target.released)) /
+                               start}};
+}
+
 /// The error of energy relative to all that is stored and dissipated.
-nlohmann::json findings(const IceRun& run, const std::optional<BendingRig>& rig, double peak_load) {
+nlohmann::json findings(const IceRun& run, const Experiment& experiment, double peak_force) {
   const Account a = account_of(run.ice);
   const double there = a.kinetic + a.internal + a.hourglass + a.viscous + a.conversion_heat + a.boundary_flux;
   nlohmann::json found = last_words(run);
   found["end_reason"] = "time";
   found["end_time"] = run.ice.solid.time;
-  found["energy_error"] = there > 0 ? std::abs(a.balance()) / there : 0.0;
-  if (rig)
-    found.update({{"peak_load", peak_load}, {"deflection", rig->deflection}, {"most_damage", most_damage(run.ice)}});
+  found["energy_error"] = there > 0 ? std::abs(a.balance() - experiment.balance_at_start) / there : 0.0;
+  if (experiment.rig) found.update(findings(experiment.bending, *experiment.rig, run.ice));
+  if (experiment.target) found.update(ball_findings(run, experiment, peak_force));
   return found;
 }
 
 /// What goes on from step to step.
 struct Course {
   IceRun& run;
-  std::optional<BendingRig> rig;
+  Experiment experiment;
   double dt = 0;           ///< s
   int frame = 0, row = 0;  ///< the next ones
-  double peak_load = 0;    ///< N
+  double peak_force = 0;   ///< N, of a plate that a ball hits
   IceFrames frames;
   results::TimeSeries series;
 
-  POLYNYA_STATE(run, rig, dt, frame, row, peak_load, frames, series)
+  POLYNYA_STATE(run, experiment, dt, frame, row, peak_force, frames, series)
 };
 
 void save(Course& course) {
@@ -106,8 +154,14 @@ void begin(Course& course) {
     return;
   }
   course.dt = run.scene.run.step_factor * stable_step(run.ice);
+  Experiment& experiment = course.experiment;
+  experiment.target = target_of(run, course.dt);
   internal_forces(run.ice, 0);
-  advance_velocities(run.ice, {}, {}, 0, course.dt);
+  load_ice(experiment, run.ice);
+  advance_velocities(run.ice, experiment.node_loads, experiment.particle_loads, 0, course.dt);
+  const Account a = account_of(run.ice);
+  experiment.balance_at_start = a.balance();
+  experiment.kinetic_at_start = a.kinetic;
 }
 
 }  // namespace
@@ -117,19 +171,21 @@ nlohmann::json run_alone(IceRun& run) {
   const auto& settings = run.scene.run;
   const double factor = (ice.options.planes.x ? 2.0 : 1.0) * (ice.options.planes.y ? 2.0 : 1.0);
   Course course{.run = run,
-                .rig = rig_of(run),
+                .experiment = {},
                 .frames = IceFrames(run.folder),
                 .series = results::TimeSeries(run.folder + "/series/ice.csv", columns(), run.opening())};
-  auto& [same_run, rig, dt, frame, row, peak_load, frames, series] = course;
+  auto& [same_run, experiment, dt, frame, row, peak_force, frames, series] = course;
+  auto& rig = experiment.rig = rig_of(run);
   const double interval = settings.frame_interval > 0 ? settings.frame_interval : settings.end_time;
   begin(course);
   results::CheckpointSchedule schedule(run.scene.checkpoint.interval, run.scene.checkpoint.wall_interval,
                                        ice.solid.time);
   while (true) {
     const bool last = ice.solid.time >= settings.end_time;
-    if (rig) peak_load = std::max(peak_load, roller_load(*rig, ice));
+    if (rig) record(experiment.bending, *rig, ice, dt);
+    if (experiment.target) peak_force = std::max(peak_force, experiment.target->force);
     if (last || ice.solid.time >= row * interval / rows_per_frame) {
-      append_row(series, run, rig, factor, dt);
+      append_row(series, run, experiment, factor, dt);
       row = static_cast<int>(ice.solid.time * rows_per_frame / interval) + 1;
     }
     if (last || ice.solid.time >= frame * interval) {
@@ -143,7 +199,9 @@ nlohmann::json run_alone(IceRun& run) {
     advance_positions(ice, dt);
     internal_forces(ice, dt);
     const double next = std::min(settings.step_factor * stable_step(ice), 1.1 * dt);
-    advance_velocities(ice, {}, {}, dt, next);
+    load_ice(experiment, ice);
+    advance_velocities(ice, experiment.node_loads, experiment.particle_loads, dt, next);
+    if (experiment.target) book_impulse(*experiment.target, 0.5 * (dt + next));
     run.smallest_step = std::min(run.smallest_step, dt);
     ++run.steps;
     dt = next;
@@ -151,7 +209,7 @@ nlohmann::json run_alone(IceRun& run) {
     schedule.taken(ice.solid.time);
     save(course);
   }
-  return findings(run, rig, peak_load);
+  return findings(run, experiment, peak_force);
 }
 
 }  // namespace polynya::ice

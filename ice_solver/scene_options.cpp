@@ -1,25 +1,54 @@
 #include "ice_solver/scene_options.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "core/continuum/fracture_energy.hpp"
 #include "core/scene/graded_line.hpp"
 
 namespace polynya::ice {
 
+namespace {
+
+Debris debris_from_name(const std::string& name) {
+  if (name == "element_centre") return Debris::particles;
+  if (name == "free_masses") return Debris::free_masses;
+  if (name == "none") return Debris::none;
+  throw std::invalid_argument("ice.particles is \"" + name + "\"; it must be element_centre, free_masses or none");
+}
+
+/// Of the elements about the axis, m: cracks run between elements along any axis, so the cube root of the volume.
+double element_size(const scene::GridLines& lines) {
+  const auto at_axis = [](const std::vector<double>& line) {
+    const auto right = std::upper_bound(line.begin(), line.end() - 1, 1e-9);
+    return *right - *(right - 1);
+  };
+  return std::cbrt(at_axis(lines.x) * at_axis(lines.y) * (lines.z[1] - lines.z[0]));
+}
+
+}  // namespace
+
 IceOptions options_from_scene(const scene::Scene& scene) {
   if (!scene.ice) throw std::invalid_argument("the scene has no ice: nothing to do for the ice solver");
   const scene::Ice& ice = *scene.ice;
-  if (ice.particles != "element_centre")
-    throw std::invalid_argument("ice.particles is \"" + ice.particles + "\"; it must be element_centre");
   const scene::MaterialCard& card = scene.material(ice.material);
   const scene::GridLines lines = scene::ice_grid_lines(scene);
   IceOptions options;
   options.x = lines.x, options.y = lines.y, options.z = lines.z;
   options.law = continuum::law_from_card(card.name, card.law, card.values);
   if (!scene.effect("ice_failure")) options.law = continuum::elastic_part(options.law);
+  if (scene.effect("damage_regularisation"))
+    options.law = continuum::regularised(std::get<continuum::JohnsonHolmquist2>(options.law), element_size(lines));
   options.planes.x = scene.symmetry == scene::Symmetry::quarter;
   options.planes.y = scene.symmetry != scene::Symmetry::full;
   options.sides = ice.bending ? Sides::free : sides_from_name(ice.sides);
+  options.held_rim = ice.held_rim;
+  if (ice.ball) {
+    options.sides = Sides::free;
+    options.ball = {0.5 * ice.ball->diameter, scene.resolution.ice_element, ice.lower_face, ice.ball->speed};
+  }
+  options.debris = debris_from_name(ice.particles);
   options.conversion = scene.effect("conversion");
   options.critical_strain = ice.critical_strain;
   options.own_contact = scene.effect("debris_contact");

@@ -12,6 +12,7 @@ PARTS = {
 # Why the time of an effect is not separate, or not all of it.
 NOTES = {
     "ice_failure": "not separable: stress, strength and damage of an element are one loop (ice: elements)",
+    "damage_regularisation": "takes no time of its own: a factor in the law (ice: elements)",
     "interface_reconstruction": "not separable: planes are laid within the sweeps (fluid: remap)",
     "cavitation": "not separable: a bound in the equation of state (fluid: equation_of_state)",
     "gravity": "not separable: a term in the sums of forces (ice and structure: velocities; fluid: lagrange)",

@@ -90,6 +90,7 @@ JohnsonHolmquist2 johnson_holmquist_2_from_card(const std::string& card, const s
   law.reference_strain_rate = values.contains("reference_strain_rate") ? read.positive("reference_strain_rate") : 1.0;
   law.maximum_fractured_strength =
       values.contains("maximum_fractured_strength") ? read.positive("maximum_fractured_strength") : 1e300;
+  if (values.contains("fracture_energy")) law.fracture_energy = read.positive("fracture_energy");
   // The tangent K1 + 2 K2 mu + 3 K3 mu^2 must stay positive where the law is used.
   for (double mu = 0; mu <= 0.3; mu += 0.01)
     if (!(law.bulk_modulus + mu * (2 * law.bulk_modulus_2 + 3 * law.bulk_modulus_3 * mu) > 0))

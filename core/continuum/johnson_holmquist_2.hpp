@@ -31,11 +31,14 @@ struct JohnsonHolmquist2 {
   double bulking_fraction = 0;                    ///< beta
   double reference_strain_rate = 1;               ///< 1/s
   double maximum_fractured_strength = 1e300;      ///< sigma_f,max as a fraction of sigma_HEL
+  double fracture_energy = 0;                     ///< G_f, J/m^2, of a crack in tension; 0: not known
+  double tension_ductility = 1;                   ///< factor on the fracture strain where the pressure is negative
 };
 
 /// From the values named like the members, with hugoniot_elastic_limit (HEL, Pa) in place of the stress there.
 /// bulk_modulus_2, bulk_modulus_3, bulking_fraction (0), reference_strain_rate (1/s) and maximum_fractured_strength
-/// (none) may be left out. Throws std::invalid_argument naming the card and the key that is missing or unphysical.
+/// (none) and fracture_energy may be left out. Throws std::invalid_argument naming the card and the key that is missing
+/// or unphysical.
 JohnsonHolmquist2 johnson_holmquist_2_from_card(const std::string& card, const std::map<std::string, double>& values);
 
 /// Strengths of intact and fractured material and the strain at which it fractures, all at one pressure and rate.
@@ -79,6 +82,8 @@ POLYNYA_INLINE JohnsonHolmquist2Strength<T> strength(const JohnsonHolmquist2& la
   if (fracture_strain)
     result.fracture_strain =
         select(tension > zero, T(law.damage_constant * exp2_of(T(law.damage_exponent * log_tension))), zero);
+  if (fracture_strain && law.tension_ductility != 1)
+    result.fracture_strain *= select(pressure < zero, T(law.tension_ductility), T(1.0));
   return result;
 }
 

@@ -34,7 +34,7 @@ Decision not_available(const Scene&) {
 Decision conversion(const Scene& scene) {
   if (!scene.ice) return impossible("the scene has no ice");
   if (scene.ice->bending) return {false, "a bending beam breaks without crushing; its elements stay elements"};
-  if (!scene.vehicle) return {false, "nothing strikes the ice"};
+  if (!scene.vehicle && !scene.ice->ball) return {false, "nothing strikes the ice"};
   return {true, "ice elements strained beyond critical_strain become particles"};
 }
 
@@ -42,6 +42,15 @@ Decision ice_failure(const Scene& scene) {
   if (!scene.ice) return impossible("the scene has no ice");
   if (scene.material(scene.ice->material).law == "elastic") return impossible("the law of the ice is elastic");
   return {true, "the law of the ice has damage"};
+}
+
+Decision damage_regularisation(const Scene& scene) {
+  if (!scene.ice) return impossible("the scene has no ice");
+  if (!scene.effect("ice_failure")) return impossible("the ice does not fail");
+  if (!scene.material(scene.ice->material).has("fracture_energy"))
+    return impossible("the card of the ice has no fracture_energy");
+  if (scene.ice->bending) return {true, "a crack in the beam takes the card's fracture energy whatever the elements"};
+  return {false, "crushing is not a crack; the card's ductility is that of its calibration"};
 }
 
 Decision interface_reconstruction(const Scene& scene) {
@@ -59,6 +68,7 @@ Decision cavitation(const Scene& scene) {
 Decision gravity(const Scene& scene) {
   if (scene.run.gravity == 0) return impossible("run.gravity is 0");
   if (scene.fluid && scene.fluid->tube) return impossible("a tube lies horizontal");
+  if (scene.ice && scene.ice->ball) return {false, "a blow of milliseconds; the weight is far below its force"};
   if (scene.ice && scene.ice->bending)
     return {false, "a floating beam carries no weight between its rollers; only the rollers bend it"};
   return {true,
@@ -73,6 +83,8 @@ Decision friction(const Scene& scene) {
 
 Decision debris_contact(const Scene& scene) {
   if (!scene.effect("conversion")) return impossible("no particles arise without conversion");
+  if (scene.ice->particles != "element_centre")
+    return impossible("ice.particles is not element_centre: what broke meets no ice");
   return {true, "particles and faces of broken ice meet intact ice by contact where they were not part of it"};
 }
 
@@ -128,6 +140,7 @@ const std::vector<Rule>& rules() {
          if (s.vehicle) s.vehicle->deformable = false;
        }},
       {"ice_failure", ice_failure, nothing},
+      {"damage_regularisation", damage_regularisation, nothing},
       {"conversion", conversion, nothing},
       {"gradient_correction", not_available, nothing},
       {"artificial_stress", not_available, nothing},

@@ -120,6 +120,8 @@ void check_sections(const Document& document, const Values& values) {
   if (values.has("water") != values.has("air"))
     throw SceneError(document.tables.at(values.has("water") ? "water" : "air") +
                      ": [water] and [air] come together; add [" + (values.has("water") ? "air" : "water") + "]");
+  if (values.has("ice.ball") && values.has("water"))
+    throw SceneError(document.tables.at("water") + ": [water] cannot stand beside [ice.ball]; remove one");
   if (values.has("fluid") && !values.has("water"))
     throw SceneError(document.tables.at("fluid") + ": [fluid] needs [water] and [air]");
   if (!values.has("vehicle") && !values.has("ice") && !values.has("water"))

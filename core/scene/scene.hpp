@@ -90,14 +90,22 @@ struct Bending {
   double ramp_time = 0;                    ///< s to reach it
 };
 
+/// A ball of ice that falls on a rigid, smooth plate at z = lower_face.
+struct Ball {
+  double diameter = 0;  ///< m
+  double speed = 0;     ///< m/s, downward
+};
+
 struct Ice {
   double length = 0, width = 0, thickness = 0;  ///< m, of the full plate (x, y, z)
   double lower_face = 0;                        ///< m, z of the lower face
   std::string material;
   double critical_strain = 0;
   std::string sides;      ///< "non_reflecting", "free" or "clamped"
-  std::string particles;  ///< "element_centre" (one particle per converted element)
+  double held_rim = 0;    ///< m, width of a rim of the upper face whose nodes are held; 0: none
+  std::string particles;  ///< what a converted element becomes: "element_centre", "free_masses" or "none"
   std::optional<Bending> bending;
+  std::optional<Ball> ball;
 };
 
 /// One side of a shock tube along x.

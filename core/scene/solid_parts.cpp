@@ -98,6 +98,7 @@ void place_vehicle(const Values& values, Scene& scene) {
   if (!scene.ice) return;
   if (scene.ice->bending)
     values.fail("vehicle.speed", "a beam in bending has no vehicle; remove [vehicle] or [ice.bending]");
+  if (scene.ice->ball) values.fail("vehicle.speed", "a ball of ice has no vehicle; remove [vehicle] or [ice.ball]");
   if (v.diameter >= std::min(scene.ice->length, scene.ice->width))
     values.fail("vehicle.diameter", "must be below ice.length and ice.width");
 }
@@ -110,6 +111,15 @@ Ice read_ice(const Values& values) {
   ice.material = values.text("ice.material");
   ice.critical_strain = values.number("ice.critical_strain");
   ice.particles = values.text("ice.particles");
+  ice.held_rim = values.number("ice.held_rim");
+  if (2 * ice.held_rim > std::min(ice.length, ice.width))
+    values.fail("ice.held_rim", "must be at most half of ice.length and ice.width");
+  if (values.has("ice.ball")) {
+    if (values.has("ice.bending")) values.fail("ice.ball.diameter", "a ball is not bent; remove [ice.bending]");
+    if (ice.held_rim > 0) values.fail("ice.held_rim", "a ball has no rim; leave it out");
+    ice.ball = {values.number("ice.ball.diameter", 0), values.number("ice.ball.speed", 0)};
+    ice.length = ice.width = ice.thickness = ice.ball->diameter;
+  }
   if (values.has("ice.bending")) {
     Bending b{values.number("ice.bending.support_span", 0), values.number("ice.bending.load_span", 0),
               values.number("ice.bending.speed", 0), values.number("ice.bending.ramp_time")};
@@ -118,7 +128,8 @@ Ice read_ice(const Values& values) {
     ice.bending = b;
   }
   ice.sides = values.text("ice.sides");
-  if (ice.sides == "auto") ice.sides = ice.bending ? "free" : "non_reflecting";
+  if (ice.sides == "auto") ice.sides = ice.bending || ice.ball ? "free" : "non_reflecting";
+  if (ice.ball && ice.sides != "free") values.fail("ice.sides", "a ball has no sides; must be auto or free");
   return ice;
 }
 

@@ -121,6 +121,7 @@ const std::array names{
     Name{dimension::frequency, "a frequency or rate such as \"20 kHz\" or \"1 1/s\""},
     Name{dimension::density, "a density such as \"900 kg/m^3\""},
     Name{dimension::pressure, "a pressure or stress such as \"1 MPa\""},
+    Name{dimension::energy_per_area, "an energy per area such as \"2 J/m^2\""},
 };
 
 }  // namespace
