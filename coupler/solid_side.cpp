@@ -1,6 +1,7 @@
 #include "coupler/solid_side.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -38,11 +39,20 @@ void read_topology(SolidSide& side, const exchange::Message& message) {
                                     std::to_string(v) + " of " + std::to_string(side.ids.size()));
 }
 
+bool all_finite(std::span<const double> values) {
+  long others = 0;
+#pragma omp simd reduction(+ : others)
+  for (std::size_t i = 0; i < values.size(); ++i)
+    others += !(std::abs(values[i]) <= std::numeric_limits<double>::max());
+  return others == 0;
+}
+
 void read_motion(SolidSide& side, const exchange::Message& message) {
   copy_array(message, "positions", side.positions);
   copy_array(message, "velocities", side.velocities);
   require_size(message, "positions", side.positions.size(), 3 * side.ids.size());
   require_size(message, "velocities", side.velocities.size(), 3 * side.ids.size());
+  if (all_finite(side.positions) && all_finite(side.velocities)) return;
   for (std::size_t i = 0; i < side.positions.size(); ++i)
     if (!std::isfinite(side.positions[i]) || !std::isfinite(side.velocities[i]))
       throw std::runtime_error(side.name + ": vertex " + std::to_string(side.ids[i / 3]) +
@@ -171,21 +181,27 @@ void SolidSide::restart_mean() {
 }
 
 void add_loads(exchange::Message& message, const SolidSide& side) {
+  const auto force = [&](std::size_t v) -> std::array<double, 3> {
+    return {side.contact_force[3 * v] + side.fluid_force[3 * v],
+            side.contact_force[3 * v + 1] + side.fluid_force[3 * v + 1],
+            side.contact_force[3 * v + 2] + side.fluid_force[3 * v + 2]};
+  };
+  constexpr std::array<double, 3> none{};
+  std::size_t loaded = 0;  // no more memory than that: the message keeps it, and a record keeps many messages
+  for (std::size_t v = 0; v < side.vertices(); ++v) loaded += force(v) != none;
   std::vector<std::int64_t> vertices;
   std::vector<double> forces;
-  vertices.reserve(side.vertices());
-  forces.reserve(3 * side.vertices());
+  vertices.reserve(loaded);
+  forces.reserve(3 * loaded);
   for (std::size_t v = 0; v < side.vertices(); ++v) {
-    const double force[3] = {side.contact_force[3 * v] + side.fluid_force[3 * v],
-                             side.contact_force[3 * v + 1] + side.fluid_force[3 * v + 1],
-                             side.contact_force[3 * v + 2] + side.fluid_force[3 * v + 2]};
-    if (force[0] == 0 && force[1] == 0 && force[2] == 0) continue;
+    const std::array<double, 3> on_vertex = force(v);
+    if (on_vertex == none) continue;
     vertices.push_back(static_cast<std::int64_t>(v));
-    forces.insert(forces.end(), force, force + 3);
+    forces.insert(forces.end(), on_vertex.begin(), on_vertex.end());
   }
-  const auto count = static_cast<std::int64_t>(vertices.size());
-  message.add<std::int64_t>("load.vertices", {count}, vertices);
-  message.add<double>("load.forces", {count, 3}, forces);
+  const auto count = static_cast<std::int64_t>(loaded);
+  message.add<std::int64_t>("load.vertices", {count}, std::move(vertices));
+  message.add<double>("load.forces", {count, 3}, std::move(forces));
 }
 
 }  // namespace polynya::coupler
