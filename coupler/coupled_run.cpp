@@ -152,6 +152,10 @@ void send_span(Run& run, long frame) {
 void prepare_loads(Run& run) {
   const auto lap = run.watch.lap("fluid_loads");
   run.overlap->prepare();
+  if (run.keeper.span == 0 || !run.topology_changed) return;
+  // Where elements broke away, lighter nodes meet the water now.
+  bound_lag(run, run.overlap->now());
+  run.topology_changed = false;
 }
 
 exchange::Message receive_pressure(Run& run) {
@@ -184,9 +188,6 @@ void take_fluid_loads(Run& run, const exchange::Message& answer) {
   }
   const FluidAnswer given = read_answer(answer, run.overlap->walls_before(), run.overlap->walls());
   run.overlap->take(run.conversation, given, length, run.ledger);
-  // Where elements broke away, lighter nodes meet the water now.
-  if (run.topology_changed) bound_lag(run, cells);
-  run.topology_changed = false;
   run.ledger.fluid_reported = {fluid.account.change("impulse_vehicle_z"), fluid.account.change("impulse_ice_z")};
   run.monitor->note_pressure(cells, fluid.grid, given.at_end.value);
 }

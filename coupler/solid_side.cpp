@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 
 #include "core/exchange/errors.hpp"
+#include "coupler/vertex_index.hpp"
 
 namespace polynya::coupler {
 namespace {
@@ -76,12 +76,9 @@ std::size_t nearest_vertex(const SolidSide& side, const double* p) {
 /// Where each vertex of a new surface stood in the old one.
 class Renumbering {
  public:
-  Renumbering(const std::vector<std::int64_t>& old_ids, const std::vector<std::int64_t>& ids) : from_(ids.size(), -1) {
-    std::unordered_map<std::int64_t, std::ptrdiff_t> index;
-    index.reserve(old_ids.size());
-    for (std::size_t v = 0; v < old_ids.size(); ++v) index[old_ids[v]] = static_cast<std::ptrdiff_t>(v);
-    for (std::size_t v = 0; v < ids.size(); ++v)
-      if (const auto found = index.find(ids[v]); found != index.end()) from_[v] = found->second;
+  Renumbering(const std::vector<std::int64_t>& old_ids, const std::vector<std::int64_t>& ids) : from_(ids.size()) {
+    VertexIndex index(old_ids);
+    for (std::size_t v = 0; v < ids.size(); ++v) from_[v] = index.find(ids[v]);
   }
   /// Rows of `old`, those of `otherwise` for vertices that are new.
   std::vector<double> carry(const std::vector<double>& old, std::size_t width, std::vector<double> otherwise) const {
@@ -101,19 +98,15 @@ class Renumbering {
 void add_fluid_impulses(SolidSide& side, std::span<const std::int64_t> ids, std::span<const double> positions,
                         std::span<const double> impulses) {
   if (side.vertices() == 0) return;
-  std::unordered_map<std::int64_t, std::size_t> index;
   const bool same = ids.size() == side.ids.size() && std::equal(ids.begin(), ids.end(), side.ids.begin());
-  if (!same) {
-    index.reserve(side.vertices());
-    for (std::size_t v = 0; v < side.vertices(); ++v) index[side.ids[v]] = v;
-  }
+  VertexIndex index(same ? std::span<const std::int64_t>() : side.ids);
   for (std::size_t old = 0; old < ids.size(); ++old) {
     const double* impulse = &impulses[3 * old];
     if (impulse[0] == 0 && impulse[1] == 0 && impulse[2] == 0) continue;
     std::size_t v = old;
     if (!same) {
-      const auto found = index.find(ids[old]);
-      v = found != index.end() ? found->second : nearest_vertex(side, &positions[3 * old]);
+      const std::ptrdiff_t found = index.find(ids[old]);
+      v = found >= 0 ? static_cast<std::size_t>(found) : nearest_vertex(side, &positions[3 * old]);
     }
     for (int d = 0; d < 3; ++d) side.fluid_impulse[3 * v + d] += impulse[d];
   }
