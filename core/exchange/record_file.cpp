@@ -22,7 +22,8 @@ using hdf5::Handle;
 
 constexpr const char* format_name = "polynya-record";
 constexpr std::int64_t format_version = 2;
-constexpr std::size_t chunk_bytes = 1 << 18;
+constexpr std::size_t batch_bytes = 1 << 20;
+constexpr std::size_t large_array = 1 << 15, chunk_bytes = 1 << 18;
 
 hid_t type_of(const std::string& type) {
   if (type == "f8") return H5T_IEEE_F64LE;
@@ -109,13 +110,28 @@ void transfer_rows(hid_t set, const std::string& name, std::vector<hsize_t> shap
   check(transfer(part, all), name);
 }
 
-/// HDF5 compresses what goes through it.
+/// HDF5 compresses what goes through it. Small arrays are gathered: it takes longer over a call than over the bytes.
 void write_values(hid_t set, const std::string& name, const std::vector<hsize_t>& shape, const ArraySeries& series) {
-  for (std::size_t i = 0; i < series.values.size(); ++i)
-    transfer_rows(set, name, shape, static_cast<hsize_t>(series.first[i]),
-                  static_cast<hsize_t>(series.first[i + 1] - series.first[i]), [&](hid_t part, hid_t all) {
-                    return H5Dwrite(set, type_of(series.type), part, all, H5P_DEFAULT, series.values[i].data());
-                  });
+  std::vector<std::byte> batch;
+  std::size_t begun = 0;
+  const auto write = [&](std::size_t end, const std::byte* values) {
+    const auto first = static_cast<hsize_t>(series.first[begun]), last = static_cast<hsize_t>(series.first[end]);
+    transfer_rows(set, name, shape, first, last - first, [&](hid_t part, hid_t all) {
+      return H5Dwrite(set, type_of(series.type), part, all, H5P_DEFAULT, values);
+    });
+    begun = end;
+    batch.clear();
+  };
+  for (std::size_t i = 0; i < series.values.size(); ++i) {
+    const Bytes& values = series.values[i];
+    const bool large = values.size() >= large_array;
+    if (begun < i && (large || batch.size() + values.size() > batch_bytes)) write(i, batch.data());
+    if (large)
+      write(i + 1, values.data());
+    else
+      batch.insert(batch.end(), values.begin(), values.end());
+  }
+  if (begun < series.values.size()) write(series.values.size(), batch.data());
 }
 
 /// Makes the data sets of a series. Values that are not compressed are left to be written to their place, which is
@@ -131,7 +147,9 @@ void write_series(hid_t parent, const std::string& name, const ArraySeries& seri
   const Handle set = make_rows(home, "values", type_of(series.type), shape, compression);
   if (compression != Compression::none) {
     write_values(set, name, shape, series);
-  } else if (const haddr_t offset = H5Dget_offset(set); offset != HADDR_UNDEF) {  // none for an array without values
+  } else if (std::any_of(series.values.begin(), series.values.end(), [](const Bytes& b) { return !b.empty(); })) {
+    const haddr_t offset = H5Dget_offset(set);
+    check(offset == HADDR_UNDEF ? -1 : 0, name);
     placed.push_back({offset, &series.values});
   }
   write_column(home, "message", H5T_STD_I64LE, series.message);
