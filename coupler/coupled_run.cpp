@@ -7,6 +7,7 @@
 
 #include "core/compute/threads.hpp"
 #include "core/exchange/errors.hpp"
+#include "core/results/durable_file.hpp"
 #include "core/results/process_report.hpp"
 #include "coupler/checkpointing.hpp"
 #include "coupler/conversation.hpp"
@@ -65,6 +66,7 @@ void begin(Run& run, const std::vector<std::string>& names) {
       run.slowest_answer = ice_share_of_step * ice->stable_step;
     bound_lag(run, cells);
     run.conversation.hub.send(fluid.name, std::move(message));
+    run.overlap->prepare();
     const exchange::Message answer = run.conversation.hub.receive(fluid.name, "pressure");
     fluid.stable_step = answer.header.at("stable_step").get<double>();
     fluid.account.set_initial(answer);
@@ -153,6 +155,10 @@ void send_span(Run& run, long frame) {
 void prepare_loads(Run& run) {
   const auto lap = run.watch.lap("fluid_loads");
   run.overlap->prepare();
+  if (run.keeper.span == 0 || !run.topology_changed) return;
+  // Where elements broke away, lighter nodes meet the water now.
+  bound_lag(run, run.overlap->now());
+  run.topology_changed = false;
 }
 
 exchange::Message receive_pressure(Run& run) {
@@ -183,17 +189,10 @@ void take_fluid_loads(Run& run, const exchange::Message& answer) {
     fluid.account.set_initial(answer);
     return;
   }
-  FluidAnswer given;
-  given.at_start = read_pressure(answer, "pressure.previous_", run.overlap->before());
-  given.at_end = read_pressure(answer, "pressure.", cells);
-  if (answer.has("pressure.impulse")) given.impulse = read_at_walls(answer, "pressure.impulse", 3 * body_count, cells);
-  if (answer.has("pressure.impedance")) given.impedance = read_at_walls(answer, "pressure.impedance", 1, cells);
+  const FluidAnswer given = read_answer(answer, run.overlap->walls_before(), run.overlap->walls());
   run.overlap->take(run.conversation, given, length, run.ledger);
-  // Where elements broke away, lighter nodes meet the water now.
-  if (run.topology_changed) bound_lag(run, cells);
-  run.topology_changed = false;
   run.ledger.fluid_reported = {fluid.account.change("impulse_vehicle_z"), fluid.account.change("impulse_ice_z")};
-  run.monitor->note_pressure(cells, fluid.grid, given.at_end);
+  run.monitor->note_pressure(cells, fluid.grid, given.at_end.value);
 }
 
 /// Force of the fluid on a vertex that moves otherwise than the fluid has seen: sound carries the difference away.
@@ -322,6 +321,13 @@ std::vector<std::pair<std::string, nlohmann::json>> part(Run& run) {
   return say_goodbye(run.conversation);
 }
 
+/// When the grid was cut: what of the critical path is geometry (docs/coupling.md).
+void write_times_of_cuts(const Run& run) {
+  std::string text = "from [s],to [s]\n";
+  for (const auto& [from, to] : run.overlap->times()) text += fmt::format("{:.9f},{:.9f}\n", from, to);
+  results::replace_text(run.folder + "/logs/coupler_cuts.csv", text);
+}
+
 void write_reports(Run& run, const std::vector<std::pair<std::string, nlohmann::json>>& last_words) {
   nlohmann::json summary = run.monitor->summary(run.keeper, run.conversation, run.ledger);
   summary["end_reason"] = run.end;
@@ -342,6 +348,7 @@ void write_reports(Run& run, const std::vector<std::pair<std::string, nlohmann::
   report.counts["free_windows"] = static_cast<double>(run.keeper.free_windows);
   report.counts["spans"] = static_cast<double>(run.keeper.span);
   report.write(run.folder, "coupler");
+  if (run.overlap) write_times_of_cuts(run);
 }
 
 std::vector<std::string> expected_participants(const scene::Scene& scene) {

@@ -36,62 +36,97 @@ class Runs {
     else
       rows_.insert(rows_.end(), {number, 1});
   }
-  void add_to(exchange::Message& message, std::string name) const {
-    message.add<std::int64_t>(std::move(name), {static_cast<std::int64_t>(rows_.size() / 2), 2}, rows_);
+  void move_to(exchange::Message& message, std::string name) {
+    const auto count = static_cast<std::int64_t>(rows_.size() / 2);
+    message.add(std::move(name), {count, 2}, std::move(rows_));
   }
 
  private:
   std::vector<std::int64_t> rows_;  ///< [runs][2], first and how many
 };
 
+/// Volumes of cells in ascending order: within a row of the grid only the width along x changes.
+class RowVolumes {
+ public:
+  explicit RowVolumes(const geometry::GridLines& grid) : grid_(grid) {}
+  double operator()(std::int64_t cell) {
+    if (cell >= end_) {
+      const auto [i, j, k] = grid_.cell_position(cell);
+      begin_ = cell - i;
+      end_ = begin_ + grid_.cells(0);
+      width_y_ = grid_.width(1, j);
+      width_z_ = grid_.width(2, k);
+    }
+    return grid_.width(0, cell - begin_) * width_y_ * width_z_;
+  }
+
+ private:
+  const geometry::GridLines& grid_;
+  std::int64_t begin_ = 0, end_ = 0;
+  double width_y_ = 0, width_z_ = 0;
+};
+
 template <class T>
-void add_column(exchange::Message& message, const char* name, const std::vector<T>& values) {
-  message.add<T>(name, {static_cast<std::int64_t>(values.size())}, values);
+void add_column(exchange::Message& message, const std::string& name, std::vector<T>&& values) {
+  const auto count = static_cast<std::int64_t>(values.size());
+  message.add(name, {count}, std::move(values));
+}
+
+/// Rows of `values` ([..][stride]) with these numbers.
+template <class T>
+std::vector<T> rows(const std::vector<T>& values, const std::vector<std::uint32_t>& numbers, std::size_t stride = 1) {
+  std::vector<T> found(stride * numbers.size());
+  T* next = found.data();
+  for (const std::uint32_t number : numbers) {
+    std::copy_n(values.data() + stride * number, stride, next);
+    next += stride;
+  }
+  return found;
 }
 
 void add_cells(exchange::Message& message, const geometry::CutCells& cut, const geometry::GridLines& grid) {
   Runs full;
-  std::vector<std::int64_t> cell, wall;
-  std::vector<double> solid, debris, area, velocity;
-  constexpr std::size_t stride = 3 * body_count;
+  RowVolumes volume(grid);
+  std::vector<std::uint32_t> listed, walled;
   for (std::size_t e = 0; e < cut.cell.size(); ++e) {
-    if (!cut.walled[e] && cut.debris_volume[e] == 0 && cut.solid_volume[e] >= grid.cell_volume(cut.cell[e])) {
+    if (!cut.walled[e] && cut.debris_volume[e] == 0 && cut.solid_volume[e] >= volume(cut.cell[e])) {
       full.add(cut.cell[e]);
       continue;
     }
-    cell.push_back(cut.cell[e]);
-    solid.push_back(cut.solid_volume[e]);
-    debris.push_back(cut.debris_volume[e]);
-    if (!cut.walled[e]) continue;
-    wall.push_back(cut.cell[e]);
-    area.insert(area.end(), &cut.wall_area[stride * e], &cut.wall_area[stride * e] + stride);
-    velocity.insert(velocity.end(), &cut.wall_velocity[stride * e], &cut.wall_velocity[stride * e] + stride);
+    listed.push_back(static_cast<std::uint32_t>(e));
+    if (cut.walled[e]) walled.push_back(static_cast<std::uint32_t>(e));
   }
-  add_column(message, "cell", cell);
-  add_column(message, "solid_volume", solid);
-  add_column(message, "debris_volume", debris);
-  full.add_to(message, "cell.full");
-  const auto walls = static_cast<std::int64_t>(wall.size());
-  add_column(message, "wall", wall);
-  message.add<double>("wall_area", {walls, body_count, 3}, area);
-  message.add<double>("wall_velocity", {walls, body_count, 3}, velocity);
+  add_column(message, "cell", rows(cut.cell, listed));
+  add_column(message, "solid_volume", rows(cut.solid_volume, listed));
+  add_column(message, "debris_volume", rows(cut.debris_volume, listed));
+  full.move_to(message, "cell.full");
+  const auto walls = static_cast<std::int64_t>(walled.size());
+  add_column(message, "wall", rows(cut.cell, walled));
+  message.add("wall_area", {walls, body_count, 3}, rows(cut.wall_area, walled, 3 * body_count));
+  message.add("wall_velocity", {walls, body_count, 3}, rows(cut.wall_velocity, walled, 3 * body_count));
 }
 
 void add_faces(exchange::Message& message, const std::string& name, const geometry::CutFaces& faces) {
   Runs full;
-  std::vector<std::int64_t> face;
-  std::vector<double> solid;
-  for (std::size_t f = 0; f < faces.face.size(); ++f) {
-    if (faces.solid[f] == 1.0) {
+  std::vector<std::uint32_t> listed;
+  for (std::size_t f = 0; f < faces.face.size(); ++f)
+    if (faces.solid[f] == 1.0)
       full.add(faces.face[f]);
-      continue;
-    }
-    face.push_back(faces.face[f]);
-    solid.push_back(faces.solid[f]);
-  }
-  add_column(message, name.c_str(), face);
-  add_column(message, (name + ".solid").c_str(), solid);
-  full.add_to(message, name + ".full");
+    else
+      listed.push_back(static_cast<std::uint32_t>(f));
+  add_column(message, name, rows(faces.face, listed));
+  add_column(message, name + ".solid", rows(faces.solid, listed));
+  full.move_to(message, name + ".full");
+}
+
+/// Any array of a `pressure` message that has `stride` values per wall.
+std::span<const double> values_at_walls(const exchange::Message& message, const std::string& name, std::size_t stride,
+                                        std::size_t walls) {
+  const auto given = message.view<double>(name);
+  if (given.size() != stride * walls)
+    throw exchange::ProtocolError("message 'pressure': array '" + name + "' holds " + std::to_string(given.size()) +
+                                  " values for " + std::to_string(walls) + " walls");
+  return given;
 }
 
 }  // namespace
@@ -102,25 +137,29 @@ void add_overlap(exchange::Message& message, const geometry::CutCells& cut, cons
   for (std::size_t d = 0; d < 3; ++d) add_faces(message, names[d], cut.faces[d]);
 }
 
-std::vector<double> read_at_walls(const exchange::Message& message, const std::string& name, std::size_t stride,
-                                  const geometry::CutCells& cut) {
-  const auto given = message.view<double>(name);
+WallPressure read_pressure(const exchange::Message& message, const std::string& prefix, const geometry::CutCells& cut) {
   const auto walls = static_cast<std::size_t>(std::count(cut.walled.begin(), cut.walled.end(), 1));
-  if (given.size() != stride * walls)
-    throw exchange::ProtocolError("message 'pressure': array '" + name + "' holds " + std::to_string(given.size()) +
-                                  " values for " + std::to_string(walls) + " walls");
-  std::vector<double> values(stride * cut.cell.size(), 0.0);
-  const double* next = given.data();
-  for (std::size_t e = 0; e < cut.walled.size(); ++e) {
+  const auto value = values_at_walls(message, prefix + "values", 1, walls),
+             gradient_z = values_at_walls(message, prefix + "gradient_z", 1, walls);
+  WallPressure pressure{std::vector<double>(cut.cell.size()), std::vector<double>(cut.cell.size())};
+  for (std::size_t e = 0, wall = 0; e < cut.cell.size(); ++e) {
     if (!cut.walled[e]) continue;
-    std::copy(next, next + stride, &values[stride * e]);
-    next += stride;
+    pressure.value[e] = value[wall];
+    pressure.gradient_z[e] = gradient_z[wall++];
   }
-  return values;
+  return pressure;
 }
 
-WallPressure read_pressure(const exchange::Message& message, const std::string& prefix, const geometry::CutCells& cut) {
-  return {read_at_walls(message, prefix + "values", 1, cut), read_at_walls(message, prefix + "gradient_z", 1, cut)};
+FluidAnswer read_answer(const exchange::Message& message, std::size_t walls_before, std::size_t walls) {
+  const auto pressure = [&](const std::string& prefix, std::size_t count) {
+    return WallPressureView{values_at_walls(message, prefix + "values", 1, count),
+                            values_at_walls(message, prefix + "gradient_z", 1, count)};
+  };
+  FluidAnswer answer{pressure("pressure.previous_", walls_before), pressure("pressure.", walls), {}, {}};
+  if (message.has("pressure.impulse"))
+    answer.impulse = values_at_walls(message, "pressure.impulse", 3 * body_count, walls);
+  if (message.has("pressure.impedance")) answer.impedance = values_at_walls(message, "pressure.impedance", 1, walls);
+  return answer;
 }
 
 }  // namespace polynya::coupler

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,17 @@ struct WallPressure {
   std::vector<double> gradient_z;  ///< [entries], Pa/m: p(z) = value - gradient_z (z - z of the cell's centre)
 };
 
-/// What the fluid gave to the walls during a span.
+/// The same by wall, as it came: cells that hold wall, in their order. The message owns the values.
+struct WallPressureView {
+  std::span<const double> value, gradient_z;  ///< [walls]
+};
+
+/// What the fluid gave to the walls during a span. The message owns the values.
 struct FluidAnswer {
-  WallPressure at_start, at_end;  ///< of the cut before and of the last one
-  std::vector<double> impulse;  ///< [entries of the last cut][2][3] N s, given otherwise than by pressure; spreads over
-                                ///< a cell's pieces of wall by area. May be empty
-  std::vector<double> impedance;  ///< [entries of the last cut] kg/(m^2 s), at each cell's wall. May be empty
+  WallPressureView at_start, at_end;  ///< of the cut before and of the last one
+  std::span<const double> impulse;    ///< [walls of the last cut][2][3] N s, given otherwise than by pressure; spreads
+                                      ///< over a cell's pieces of wall by area. May be empty
+  std::span<const double> impedance;  ///< [walls of the last cut] kg/(m^2 s), at each cell's wall. May be empty
 };
 
 /// What the coupler knows of the fluid participant.
@@ -46,8 +52,8 @@ void add_overlap(exchange::Message& message, const geometry::CutCells& cut, cons
 /// does not fit.
 WallPressure read_pressure(const exchange::Message& message, const std::string& prefix, const geometry::CutCells& cut);
 
-/// Any other array of a `pressure` message that has `stride` values per wall, likewise for all entries of the cut.
-std::vector<double> read_at_walls(const exchange::Message& message, const std::string& name, std::size_t stride,
-                                  const geometry::CutCells& cut);
+/// The answer to a span, with the numbers of walls of the cut before and of the last one. Throws ProtocolError when the
+/// number of values does not fit.
+FluidAnswer read_answer(const exchange::Message& message, std::size_t walls_before, std::size_t walls);
 
 }  // namespace polynya::coupler

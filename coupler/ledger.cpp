@@ -1,6 +1,6 @@
 #include "coupler/ledger.hpp"
 
-#include <unordered_map>
+#include "coupler/vertex_index.hpp"
 
 namespace polynya::coupler {
 
@@ -21,16 +21,14 @@ void WorkMeter::remember(const SolidSide& side, double acting_time) {
 void WorkMeter::settle(const SolidSide& side, Ledger& ledger) {
   if (ids_.empty()) return;
   const int b = static_cast<int>(side.body);
-  std::unordered_map<std::int64_t, std::size_t> index;
-  if (side.topology_changed)
-    for (std::size_t v = 0; v < side.vertices(); ++v) index[side.ids[v]] = v;
+  VertexIndex index(side.topology_changed ? side.ids : std::span<const std::int64_t>());
   double contact = 0, fluid = 0;
   for (std::size_t old = 0; old < ids_.size(); ++old) {
     const double* after = nullptr;
     if (!side.topology_changed) {
       after = &side.velocities[3 * old];
-    } else if (const auto found = index.find(ids_[old]); found != index.end()) {
-      after = &side.velocities[3 * found->second];
+    } else if (const std::ptrdiff_t found = index.find(ids_[old]); found >= 0) {
+      after = &side.velocities[3 * static_cast<std::size_t>(found)];
     }
     for (int d = 0; d < 3; ++d) {
       const double before = velocity_before_[3 * old + d];

@@ -73,19 +73,21 @@ void Monitor::note_contact(const contact::ContactForces& forces) {
 }
 
 void Monitor::note_pressure(const geometry::CutCells& cells, const geometry::GridLines& grid,
-                            const WallPressure& pressure) {
+                            std::span<const double> pressure) {
   wall_pressure_ = 0;
   double head_area = 0, head_sum = 0;
   constexpr auto vehicle = static_cast<std::size_t>(Body::vehicle);
   const double shoulder = scene_.vehicle ? nose_ - scene_.vehicle->head_length : nose_;
-  for (std::size_t e = 0; e < cells.cell.size(); ++e) {
+  for (std::size_t e = 0, wall = 0; e < cells.cell.size(); ++e) {
+    if (!cells.walled[e]) continue;
+    const double at_wall = pressure[wall++];
     const double* area = &cells.wall_area[(e * body_count + vehicle) * 3];
     const double size = std::sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
     if (size == 0) continue;
-    wall_pressure_ = std::max(wall_pressure_, pressure.value[e]);
+    wall_pressure_ = std::max(wall_pressure_, at_wall);
     if (grid.lines[2][static_cast<std::size_t>(grid.cell_position(cells.cell[e])[2]) + 1] < shoulder) continue;
     head_area += size;
-    head_sum += size * pressure.value[e];
+    head_sum += size * at_wall;
   }
   head_pressure_ = head_area > 0 ? head_sum / head_area : 0.0;
   peak_wall_pressure_ = std::max(peak_wall_pressure_, wall_pressure_);

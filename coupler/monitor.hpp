@@ -31,7 +31,9 @@ class Monitor {
 
   void note_contact(const contact::ContactForces& forces);
   /// Gauge pressure on the vehicle's wall: the largest of any cell, and the mean over the head by area.
-  void note_pressure(const geometry::CutCells& cells, const geometry::GridLines& grid, const WallPressure& pressure);
+  /// pressure: Pa, by wall.
+  void note_pressure(const geometry::CutCells& cells, const geometry::GridLines& grid,
+                     std::span<const double> pressure);
 
   double nose() const { return nose_; }    ///< m
   double speed() const { return speed_; }  ///< m/s, of the centre of mass, upward

@@ -1,6 +1,7 @@
 #include "coupler/overlap_exchange.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "core/compute/parallel.hpp"
@@ -10,9 +11,24 @@
 namespace polynya::coupler {
 namespace {
 
-/// Where a body's wall of a cell stands in arrays [entries][bodies].
-std::size_t at_wall(const geometry::WallPiece& piece) {
-  return static_cast<std::size_t>(piece.entry) * body_count + static_cast<std::size_t>(piece.body);
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Where a body's wall stands in arrays [walls][bodies].
+std::size_t at_wall(std::int32_t wall, const geometry::WallPiece& piece) {
+  return static_cast<std::size_t>(wall) * body_count + static_cast<std::size_t>(piece.body);
+}
+
+/// Resistance of the fluid to the motion of a piece's vertices: impedance x area, along its normal.
+void add_impedance(const geometry::WallPiece& piece, const std::int32_t* vertex, double per_size,
+                   std::vector<double>& impedance) {
+  const auto [x, y, z] = piece.area;
+  const double products[6] = {x * x, y * y, z * z, x * y, y * z, z * x};
+  for (std::size_t i = 0; i < 3; ++i) {
+    double* at = &impedance[6 * static_cast<std::size_t>(vertex[i])];
+    for (std::size_t c = 0; c < 6; ++c) at[c] += per_size * piece.weights[i] * products[c];
+  }
 }
 
 }  // namespace
@@ -34,6 +50,7 @@ std::vector<geometry::BodySurface> OverlapExchange::Cut::views() const {
 
 const geometry::CutCells& OverlapExchange::cut(const Conversation& conversation, compute::Stopwatch& watch) {
   const auto lap = watch.lap("overlap");
+  const double begun = seconds_now();
   std::swap(before_, now_);
   now_.surfaces.resize(conversation.solids.size());
   for (std::size_t s = 0; s < conversation.solids.size(); ++s) {
@@ -62,43 +79,73 @@ const geometry::CutCells& OverlapExchange::cut(const Conversation& conversation,
       }
     if (!volumes.empty()) cutter_.deposit_debris(positions, volumes, now_.cells);
   }
+  times_.push_back({begun, seconds_now()});
   return now_.cells;
 }
 
 void OverlapExchange::prepare() {
-  const std::vector<geometry::WallPiece>& pieces = now_.cells.pieces;
-  now_.piece_size.resize(pieces.size());
-  now_.wall_size.assign(now_.cells.cell.size() * body_count, 0.0);
+  Cut& cut = now_;
+  const std::vector<geometry::WallPiece>& pieces = cut.cells.pieces;
+  cut.walls = 0;
+  cut.wall_of.resize(cut.cells.cell.size());
+  for (std::size_t e = 0; e < cut.wall_of.size(); ++e)
+    cut.wall_of[e] = cut.cells.walled[e] ? static_cast<std::int32_t>(cut.walls++) : -1;
+  cut.piece_size.resize(pieces.size());
+  cut.wall_size.assign(cut.walls * body_count, 0.0);
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    now_.piece_size[p] = contact::norm(pieces[p].area);
-    now_.wall_size[at_wall(pieces[p])] += now_.piece_size[p];
+    cut.piece_size[p] = contact::norm(pieces[p].area);
+    cut.wall_size[at_wall(cut.wall_of[static_cast<std::size_t>(pieces[p].entry)], pieces[p])] += cut.piece_size[p];
   }
 }
 
 void OverlapExchange::take(Conversation& conversation, const FluidAnswer& answer, double span, Ledger& ledger) const {
-  std::vector<geometry::WallForces> at_start, at_end;
-  PerBody carried, impedance;
-  // Four sums over the pieces of wall, of which none needs another; the longest first.
-  compute::for_uneven_chunks(4, 1, [&](std::size_t sum, std::size_t) {
-    const auto forces = [](const Cut& cut, const WallPressure& pressure) {
-      return geometry::pressure_forces(cut.cells, cut.views(), pressure.value, pressure.gradient_z);
-    };
-    if (sum == 0) at_start = forces(before_, answer.at_start);
-    if (sum == 1) at_end = forces(now_, answer.at_end);
-    if (sum == 2 && !answer.impedance.empty()) impedance = impedances(conversation, answer.impedance);
-    if (sum == 3 && !answer.impulse.empty()) carried = wall_impulses(conversation, answer.impulse);
+  Given at_start, at_end;
+  // Neither needs the other; the longer one first.
+  compute::for_uneven_chunks(2, 1, [&](std::size_t sum, std::size_t) {
+    if (sum == 0) at_end = spread(now_, answer.at_end, 0.5 * span, answer.impulse, answer.impedance);
+    if (sum == 1) at_start = spread(before_, answer.at_start, 0.5 * span, {}, {});
   });
   book(conversation, before_, at_start, 0.5 * span, ledger);
   book(conversation, now_, at_end, 0.5 * span, ledger);
-  for (SolidSide& side : conversation.solids) {
-    const auto body = static_cast<std::size_t>(side.body);
-    for (std::size_t i = 0; i < carried[body].size(); ++i) {
-      side.fluid_impulse[i] += carried[body][i];
-      ledger.fluid_given[body][i % 3] += carried[body][i];
-      if (i % 3 == 2) ledger.fluid_carried[body] += carried[body][i];
-    }
-    if (!impedance[body].empty()) side.impedance = std::move(impedance[body]);
+  if (answer.impedance.empty()) return;
+  for (SolidSide& side : conversation.solids)
+    side.impedance = std::move(at_end.impedance[static_cast<std::size_t>(side.body)]);
+}
+
+/// One pass through the pieces of wall does all: to read them takes longer than what is computed of them.
+OverlapExchange::Given OverlapExchange::spread(const Cut& cut, const WallPressureView& pressure, double time,
+                                               std::span<const double> impulse, std::span<const double> impedance) {
+  Given given;
+  std::array<const std::int32_t*, body_count> triangles{};
+  for (const Cut::Surface& surface : cut.surfaces) {
+    const auto body = static_cast<std::size_t>(surface.body);
+    given.impulse[body].assign(surface.positions.size(), 0.0);
+    if (!impedance.empty()) given.impedance[body].assign(2 * surface.positions.size(), 0.0);
+    triangles[body] = surface.triangles.data();
   }
+  for (std::size_t p = 0; p < cut.cells.pieces.size(); ++p) {
+    const geometry::WallPiece& piece = cut.cells.pieces[p];
+    const std::int32_t at = cut.wall_of[static_cast<std::size_t>(piece.entry)];
+    const auto wall = static_cast<std::size_t>(at), body = static_cast<std::size_t>(piece.body);
+    const std::int32_t* vertex = triangles[body] + 3 * static_cast<std::size_t>(piece.triangle);
+    const double rise = pressure.gradient_z[wall] * piece.height;
+    const double push = time * (pressure.value[wall] - rise);
+    std::array<double, 3> sum{-push * piece.area[0], -push * piece.area[1], -push * piece.area[2]};
+    given.weight[body] += time * rise * piece.area[2];
+    given.area_z[body] -= piece.area[2];
+    if (!impulse.empty() && cut.wall_size[at_wall(at, piece)] > 0) {
+      const double share = cut.piece_size[p] / cut.wall_size[at_wall(at, piece)];
+      const double* other = &impulse[3 * at_wall(at, piece)];
+      for (std::size_t d = 0; d < 3; ++d) sum[d] += share * other[d];
+      given.carried[body] += share * other[2];
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t d = 0; d < 3; ++d)
+        given.impulse[body][3 * static_cast<std::size_t>(vertex[i]) + d] += piece.weights[i] * sum[d];
+    if (!impedance.empty() && cut.piece_size[p] > 0)
+      add_impedance(piece, vertex, impedance[wall] / cut.piece_size[p], given.impedance[body]);
+  }
+  return given;
 }
 
 void OverlapExchange::set_start_forces(Conversation& conversation, const WallPressure& pressure) const {
@@ -108,68 +155,19 @@ void OverlapExchange::set_start_forces(Conversation& conversation, const WallPre
     side.start_force = std::move(forces[static_cast<std::size_t>(side.body)].on_vertices);
 }
 
-void OverlapExchange::book(Conversation& conversation, const Cut& cut, const std::vector<geometry::WallForces>& forces,
-                           double time, Ledger& ledger) const {
+void OverlapExchange::book(Conversation& conversation, const Cut& cut, const Given& given, double time,
+                           Ledger& ledger) const {
   for (SolidSide& side : conversation.solids)
     for (const Cut::Surface& surface : cut.surfaces) {
       if (surface.body != side.body) continue;
       const auto body = static_cast<std::size_t>(side.body);
-      std::vector<double> impulses = forces[body].on_vertices;
-      double vertical = 0;
-      for (std::size_t i = 0; i < impulses.size(); ++i) {
-        impulses[i] *= time;
-        ledger.fluid_given[body][i % 3] += impulses[i];
-        if (i % 3 == 2) vertical += impulses[i];
-      }
-      ledger.fluid_weight[body] += vertical - time * forces[body].without_gradient;
-      ledger.fluid_atmosphere[body] += time * atmospheric_pressure_ * forces[body].area_z;
+      const std::vector<double>& impulses = given.impulse[body];
+      for (std::size_t i = 0; i < impulses.size(); ++i) ledger.fluid_given[body][i % 3] += impulses[i];
+      ledger.fluid_weight[body] += given.weight[body];
+      ledger.fluid_carried[body] += given.carried[body];
+      ledger.fluid_atmosphere[body] += time * atmospheric_pressure_ * given.area_z[body];
       add_fluid_impulses(side, surface.ids, surface.positions, impulses);
     }
-}
-
-OverlapExchange::PerBody OverlapExchange::wall_impulses(const Conversation& conversation,
-                                                        std::span<const double> impulse) const {
-  PerBody all;
-  std::array<const std::int32_t*, body_count> triangles{};
-  for (const SolidSide& side : conversation.solids) {
-    all[static_cast<std::size_t>(side.body)].assign(side.positions.size(), 0.0);
-    triangles[static_cast<std::size_t>(side.body)] = side.triangles.data();
-  }
-  for (std::size_t p = 0; p < now_.cells.pieces.size(); ++p) {
-    const geometry::WallPiece& piece = now_.cells.pieces[p];
-    const double* given = &impulse[3 * at_wall(piece)];
-    if ((given[0] == 0 && given[1] == 0 && given[2] == 0) || !(now_.wall_size[at_wall(piece)] > 0)) continue;
-    const double share = now_.piece_size[p] / now_.wall_size[at_wall(piece)];
-    const auto body = static_cast<std::size_t>(piece.body);
-    const std::int32_t* v = triangles[body] + 3 * static_cast<std::size_t>(piece.triangle);
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t d = 0; d < 3; ++d)
-        all[body][3 * static_cast<std::size_t>(v[i]) + d] += share * piece.weights[i] * given[d];
-  }
-  return all;
-}
-
-OverlapExchange::PerBody OverlapExchange::impedances(const Conversation& conversation,
-                                                     std::span<const double> impedance) const {
-  PerBody all;
-  std::array<const std::int32_t*, body_count> triangles{};
-  for (const SolidSide& side : conversation.solids) {
-    all[static_cast<std::size_t>(side.body)].assign(6 * side.vertices(), 0.0);
-    triangles[static_cast<std::size_t>(side.body)] = side.triangles.data();
-  }
-  for (std::size_t p = 0; p < now_.cells.pieces.size(); ++p) {
-    const geometry::WallPiece& piece = now_.cells.pieces[p];
-    const double at_cell = impedance[static_cast<std::size_t>(piece.entry)], size = now_.piece_size[p];
-    if (size == 0 || at_cell == 0) continue;
-    const double n[3] = {piece.area[0] / size, piece.area[1] / size, piece.area[2] / size};
-    const double products[6] = {n[0] * n[0], n[1] * n[1], n[2] * n[2], n[0] * n[1], n[1] * n[2], n[2] * n[0]};
-    const auto body = static_cast<std::size_t>(piece.body);
-    const std::int32_t* v = triangles[body] + 3 * static_cast<std::size_t>(piece.triangle);
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t c = 0; c < 6; ++c)
-        all[body][6 * static_cast<std::size_t>(v[i]) + c] += at_cell * size * piece.weights[i] * products[c];
-  }
-  return all;
 }
 
 double OverlapExchange::verify_sample(std::uint64_t seed, std::size_t count) const {

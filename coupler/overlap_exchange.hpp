@@ -1,4 +1,7 @@
 #pragma once
+#include <array>
+#include <vector>
+
 #include "core/compute/timer.hpp"
 #include "coupler/conversation.hpp"
 #include "coupler/ledger.hpp"
@@ -21,6 +24,9 @@ class OverlapExchange {
 
   /// What `take` needs of the last cut alone: while the fluid computes, there is time for it.
   void prepare();
+  /// Cells that hold wall in the cut before and in the last one. After `prepare`.
+  std::size_t walls_before() const { return before_.walls; }
+  std::size_t walls() const { return now_.walls; }
 
   /// Remembers with the solids the forces of the fluid's pressure at time 0, which belongs to the last cut.
   void set_start_forces(Conversation& conversation, const WallPressure& pressure) const;
@@ -38,16 +44,18 @@ class OverlapExchange {
   };
   const Counts& counts() const { return counts_; }
 
-  const geometry::CutCells& before() const { return before_.cells; }
   const geometry::CutCells& now() const { return now_.cells; }
+
+  /// [cuts] from and to, s, on the clock of exchange::Waits.
+  const std::vector<std::array<double, 2>>& times() const { return times_; }
 
   /// Recuts a seeded sample of cells by CGAL's exact kernel. Returns the largest difference relative to the cell's
   /// volume.
   double verify_sample(std::uint64_t seed, std::size_t count) const;
 
   /// Between spans, when only the last cut is looked at again.
-  POLYNYA_STATE_WITHOUT((cutter_, debris_displaces_fluid_, exact_, atmospheric_pressure_, before_), cutter_,
-                        debris_displaces_fluid_, exact_, atmospheric_pressure_, counts_, before_, now_)
+  POLYNYA_STATE_WITHOUT((cutter_, debris_displaces_fluid_, exact_, atmospheric_pressure_, before_, times_), cutter_,
+                        debris_displaces_fluid_, exact_, atmospheric_pressure_, counts_, before_, now_, times_)
 
  private:
   using PerBody = std::array<std::vector<double>, body_count>;  ///< by vertex of the body's surface
@@ -65,23 +73,34 @@ class OverlapExchange {
       POLYNYA_STATE(body, ids, positions, velocities, triangles)
     };
     std::vector<Surface> surfaces;
-    std::vector<double> piece_size;  ///< [pieces] m^2
-    std::vector<double> wall_size;   ///< [entries][bodies] m^2, their sum by cell
+    std::size_t walls = 0;              ///< cells that hold wall
+    std::vector<std::int32_t> wall_of;  ///< [entries] which of them, -1: none
+    std::vector<double> piece_size;     ///< [pieces] m^2
+    std::vector<double> wall_size;      ///< [walls][bodies] m^2, their sum by cell
     std::vector<geometry::BodySurface> views() const;
 
-    POLYNYA_STATE(cells, surfaces, piece_size, wall_size)
+    POLYNYA_STATE(cells, surfaces, walls, wall_of, piece_size, wall_size)
   };
-  /// Adds the impulses of one cut's pressures, which acted for `time` (s).
-  void book(Conversation& conversation, const Cut& cut, const std::vector<geometry::WallForces>& forces, double time,
-            Ledger& ledger) const;
-  PerBody wall_impulses(const Conversation& conversation, std::span<const double> impulse) const;
-  PerBody impedances(const Conversation& conversation, std::span<const double> impedance) const;
+  /// What the pieces of one cut hand from the fluid to the vertices of its surfaces.
+  struct Given {
+    PerBody impulse;                           ///< [nv][3] N s
+    PerBody impedance;                         ///< [nv][6] kg/s; empty if the fluid tells none
+    std::array<double, body_count> weight{};   ///< N s, part of the vertical impulse: see Ledger::fluid_weight
+    std::array<double, body_count> carried{};  ///< N s, likewise: Ledger::fluid_carried
+    std::array<double, body_count> area_z{};   ///< m^2, into the body
+  };
+  /// Pressures that acted for `time` (s), and whatever else is given by the walls of the cut.
+  static Given spread(const Cut& cut, const WallPressureView& pressure, double time, std::span<const double> impulse,
+                      std::span<const double> impedance);
+  /// Hands it to the solids, and to the ledger.
+  void book(Conversation& conversation, const Cut& cut, const Given& given, double time, Ledger& ledger) const;
 
   geometry::Cutter cutter_;
   bool debris_displaces_fluid_, exact_;
   double atmospheric_pressure_;  ///< Pa
   Counts counts_;
   Cut before_, now_;
+  std::vector<std::array<double, 2>> times_;
 };
 
 }  // namespace polynya::coupler

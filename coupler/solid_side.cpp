@@ -1,11 +1,12 @@
 #include "coupler/solid_side.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 
 #include "core/exchange/errors.hpp"
+#include "coupler/vertex_index.hpp"
 
 namespace polynya::coupler {
 namespace {
@@ -38,11 +39,20 @@ void read_topology(SolidSide& side, const exchange::Message& message) {
                                     std::to_string(v) + " of " + std::to_string(side.ids.size()));
 }
 
+bool all_finite(std::span<const double> values) {
+  long others = 0;
+#pragma omp simd reduction(+ : others)
+  for (std::size_t i = 0; i < values.size(); ++i)
+    others += !(std::abs(values[i]) <= std::numeric_limits<double>::max());
+  return others == 0;
+}
+
 void read_motion(SolidSide& side, const exchange::Message& message) {
   copy_array(message, "positions", side.positions);
   copy_array(message, "velocities", side.velocities);
   require_size(message, "positions", side.positions.size(), 3 * side.ids.size());
   require_size(message, "velocities", side.velocities.size(), 3 * side.ids.size());
+  if (all_finite(side.positions) && all_finite(side.velocities)) return;
   for (std::size_t i = 0; i < side.positions.size(); ++i)
     if (!std::isfinite(side.positions[i]) || !std::isfinite(side.velocities[i]))
       throw std::runtime_error(side.name + ": vertex " + std::to_string(side.ids[i / 3]) +
@@ -66,12 +76,9 @@ std::size_t nearest_vertex(const SolidSide& side, const double* p) {
 /// Where each vertex of a new surface stood in the old one.
 class Renumbering {
  public:
-  Renumbering(const std::vector<std::int64_t>& old_ids, const std::vector<std::int64_t>& ids) : from_(ids.size(), -1) {
-    std::unordered_map<std::int64_t, std::ptrdiff_t> index;
-    index.reserve(old_ids.size());
-    for (std::size_t v = 0; v < old_ids.size(); ++v) index[old_ids[v]] = static_cast<std::ptrdiff_t>(v);
-    for (std::size_t v = 0; v < ids.size(); ++v)
-      if (const auto found = index.find(ids[v]); found != index.end()) from_[v] = found->second;
+  Renumbering(const std::vector<std::int64_t>& old_ids, const std::vector<std::int64_t>& ids) : from_(ids.size()) {
+    VertexIndex index(old_ids);
+    for (std::size_t v = 0; v < ids.size(); ++v) from_[v] = index.find(ids[v]);
   }
   /// Rows of `old`, those of `otherwise` for vertices that are new.
   std::vector<double> carry(const std::vector<double>& old, std::size_t width, std::vector<double> otherwise) const {
@@ -91,19 +98,15 @@ class Renumbering {
 void add_fluid_impulses(SolidSide& side, std::span<const std::int64_t> ids, std::span<const double> positions,
                         std::span<const double> impulses) {
   if (side.vertices() == 0) return;
-  std::unordered_map<std::int64_t, std::size_t> index;
   const bool same = ids.size() == side.ids.size() && std::equal(ids.begin(), ids.end(), side.ids.begin());
-  if (!same) {
-    index.reserve(side.vertices());
-    for (std::size_t v = 0; v < side.vertices(); ++v) index[side.ids[v]] = v;
-  }
+  VertexIndex index(same ? std::span<const std::int64_t>() : side.ids);
   for (std::size_t old = 0; old < ids.size(); ++old) {
     const double* impulse = &impulses[3 * old];
     if (impulse[0] == 0 && impulse[1] == 0 && impulse[2] == 0) continue;
     std::size_t v = old;
     if (!same) {
-      const auto found = index.find(ids[old]);
-      v = found != index.end() ? found->second : nearest_vertex(side, &positions[3 * old]);
+      const std::ptrdiff_t found = index.find(ids[old]);
+      v = found >= 0 ? static_cast<std::size_t>(found) : nearest_vertex(side, &positions[3 * old]);
     }
     for (int d = 0; d < 3; ++d) side.fluid_impulse[3 * v + d] += impulse[d];
   }
@@ -171,21 +174,27 @@ void SolidSide::restart_mean() {
 }
 
 void add_loads(exchange::Message& message, const SolidSide& side) {
+  const auto force = [&](std::size_t v) -> std::array<double, 3> {
+    return {side.contact_force[3 * v] + side.fluid_force[3 * v],
+            side.contact_force[3 * v + 1] + side.fluid_force[3 * v + 1],
+            side.contact_force[3 * v + 2] + side.fluid_force[3 * v + 2]};
+  };
+  constexpr std::array<double, 3> none{};
+  std::size_t loaded = 0;  // no more memory than that: the message keeps it, and a record keeps many messages
+  for (std::size_t v = 0; v < side.vertices(); ++v) loaded += force(v) != none;
   std::vector<std::int64_t> vertices;
   std::vector<double> forces;
-  vertices.reserve(side.vertices());
-  forces.reserve(3 * side.vertices());
+  vertices.reserve(loaded);
+  forces.reserve(3 * loaded);
   for (std::size_t v = 0; v < side.vertices(); ++v) {
-    const double force[3] = {side.contact_force[3 * v] + side.fluid_force[3 * v],
-                             side.contact_force[3 * v + 1] + side.fluid_force[3 * v + 1],
-                             side.contact_force[3 * v + 2] + side.fluid_force[3 * v + 2]};
-    if (force[0] == 0 && force[1] == 0 && force[2] == 0) continue;
+    const std::array<double, 3> on_vertex = force(v);
+    if (on_vertex == none) continue;
     vertices.push_back(static_cast<std::int64_t>(v));
-    forces.insert(forces.end(), force, force + 3);
+    forces.insert(forces.end(), on_vertex.begin(), on_vertex.end());
   }
-  const auto count = static_cast<std::int64_t>(vertices.size());
-  message.add<std::int64_t>("load.vertices", {count}, vertices);
-  message.add<double>("load.forces", {count, 3}, forces);
+  const auto count = static_cast<std::int64_t>(loaded);
+  message.add<std::int64_t>("load.vertices", {count}, std::move(vertices));
+  message.add<double>("load.forces", {count, 3}, std::move(forces));
 }
 
 }  // namespace polynya::coupler

@@ -31,8 +31,9 @@ exchange::Message make_ready(const Fluid& fluid) {
 void add_pressure(exchange::Message& message, const Fluid& fluid, const Overlap& overlap, const std::string& prefix) {
   std::vector<double> value, gradient;
   overlap_pressure(fluid, overlap.walled, value, gradient);
-  message.add<double>(prefix + "values", {rows(value.size())}, value);
-  message.add<double>(prefix + "gradient_z", {rows(gradient.size())}, gradient);
+  const std::int64_t count = rows(value.size());
+  message.add<double>(prefix + "values", {count}, std::move(value));
+  message.add<double>(prefix + "gradient_z", {count}, std::move(gradient));
 }
 
 exchange::Message make_pressure(Fluid& fluid, const Overlap& overlap) {
@@ -69,8 +70,9 @@ void add_impulse_and_impedance(exchange::Message& message, const Fluid& fluid, c
     impedance.push_back(fluid.bulk_modulus[cell] > 0 ? fluid.density[cell] * fluid.sound_speed[cell] : 0.0);
     for (const auto& body : fluid.wall_impulse[piece]) impulse.insert(impulse.end(), body.begin(), body.end());
   }
-  message.add<double>("pressure.impedance", {rows(impedance.size())}, impedance);
-  message.add<double>("pressure.impulse", {rows(impedance.size()), 2, 3}, impulse);
+  const std::int64_t count = rows(impedance.size());
+  message.add<double>("pressure.impedance", {count}, std::move(impedance));
+  message.add<double>("pressure.impulse", {count, 2, 3}, std::move(impulse));
 }
 
 double positive_span(const exchange::Message& message, double time) {

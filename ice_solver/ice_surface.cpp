@@ -54,7 +54,7 @@ void vertex_motion(const IceBody& ice, std::span<const std::int32_t> nodes, std:
 void distribute_loads(const IceBody& ice, const IceSurface& surface, std::span<const std::int64_t> vertices,
                       std::span<const double> forces, std::vector<double>& node_loads,
                       std::vector<double>& particle_loads) {
-  node_loads.assign(3 * ice.solid.node_count(), 0.0);
+  node_loads.resize(3 * ice.solid.node_count(), 0.0);
   particle_loads.assign(3 * ice.particles.count(), 0.0);
   const auto node_vertices = static_cast<std::int64_t>(surface.nodes.size());
   for (std::size_t k = 0; k < vertices.size(); ++k) {
@@ -67,6 +67,13 @@ void distribute_loads(const IceBody& ice, const IceSurface& surface, std::span<c
                        : &particle_loads[3 * static_cast<std::size_t>(v - node_vertices)];
     for (std::size_t c = 0; c < 3; ++c) load[c] += forces[3 * k + c];
   }
+}
+
+void take_back_loads(const IceSurface& surface, std::span<const std::int64_t> vertices,
+                     std::vector<double>& node_loads) {
+  for (const std::int64_t v : vertices)
+    if (v < static_cast<std::int64_t>(surface.nodes.size()))
+      std::fill_n(&node_loads[3 * static_cast<std::size_t>(surface.nodes[static_cast<std::size_t>(v)])], 3, 0.0);
 }
 
 }  // namespace polynya::ice

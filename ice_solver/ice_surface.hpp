@@ -28,10 +28,14 @@ IceSurface surface_of(const IceBody& ice);
 void vertex_motion(const IceBody& ice, std::span<const std::int32_t> nodes, std::vector<double>& positions,
                    std::vector<double>& velocities);
 
-/// Loads on vertices handed to nodes ([nodes][3]) and particles ([particles][3]). Throws std::invalid_argument if a
-/// vertex does not exist.
+/// Adds loads on vertices to those of the nodes ([nodes][3], zeros so far) and gives them to particles
+/// ([particles][3]). Throws std::invalid_argument if a vertex does not exist.
 void distribute_loads(const IceBody& ice, const IceSurface& surface, std::span<const std::int64_t> vertices,
                       std::span<const double> forces, std::vector<double>& node_loads,
                       std::vector<double>& particle_loads);
+
+/// Leaves zeros where the loads on these vertices were: most nodes are inside and never have any.
+void take_back_loads(const IceSurface& surface, std::span<const std::int64_t> vertices,
+                     std::vector<double>& node_loads);
 
 }  // namespace polynya::ice

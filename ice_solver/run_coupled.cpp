@@ -28,8 +28,8 @@ void add_motion_and_account(Message& message, IceBody& ice, const IceSurface& su
   std::vector<double> positions, velocities;
   vertex_motion(ice, surface.nodes, positions, velocities);
   const auto vertices = static_cast<std::int64_t>(surface.vertex_count());
-  message.add<double>("positions", {vertices, 3}, positions);
-  message.add<double>("velocities", {vertices, 3}, velocities);
+  message.add<double>("positions", {vertices, 3}, std::move(positions));
+  message.add<double>("velocities", {vertices, 3}, std::move(velocities));
   const auto lap = ice.watch.lap("account");
   message.header["stable_step"] = stable_step(ice);
   const std::vector<double> values = account_values(account_of(ice));
@@ -101,18 +101,18 @@ struct Course {
   double dt = 0;    ///< s
   long window = 0;  ///< the next one
   IceFrames frames;
+  std::vector<double> node_loads, particle_loads;  ///< N; of nodes only while they act
 
-  POLYNYA_STATE(run, surface, dt, window, frames)
+  POLYNYA_STATE_WITHOUT((node_loads, particle_loads), run, surface, dt, window, frames, node_loads, particle_loads)
 };
 
 /// What remains of a window after its positions are known, and of the next one, if it is free, all but the last step;
 /// returns the length of the step that comes now, 0 to finish, and the
 /// folder of the checkpoint that is wanted before it.
 double finish_window(Course& course, exchange::Participant& participant, std::string& checkpoint) {
-  auto& [run, surface, dt, window, frames] = course;
+  auto& [run, surface, dt, window, frames, node_loads, particle_loads] = course;
   internal_forces(run.ice, dt);
   Message loads;
-  std::vector<double> node_loads, particle_loads;
   {
     const auto lap = run.ice.watch.lap("messages");
     loads = participant.receive("loads");
@@ -124,6 +124,7 @@ double finish_window(Course& course, exchange::Participant& participant, std::st
   const bool free = loads.header.value("free", false);
   const double next = free ? own_step(run, length) : length;
   advance_velocities(run.ice, node_loads, particle_loads, dt, next);
+  take_back_loads(surface, loads.view<std::int64_t>("load.vertices"), node_loads);
   const int frame = loads.header.at("frame").get<int>();
   if (frame >= 0) {
     const auto lap = run.ice.watch.lap("frames");
@@ -165,7 +166,7 @@ void go_on(Course& course, exchange::Participant& participant) {
 
 void run_coupled(IceRun& run, exchange::Participant& participant) {
   IceBody& ice = run.ice;
-  Course course{.run = run, .surface = {}, .frames = IceFrames(run.folder)};
+  Course course{.run = run, .surface = {}, .frames = IceFrames(run.folder), .node_loads = {}, .particle_loads = {}};
   if (run.checkpoints.resuming())
     go_on(course, participant);
   else

@@ -11,6 +11,7 @@ from pathlib import Path
 from launcher.effect_times import MESSAGES, computed
 
 COUPLER = "coupler"
+UNTOLD = {"exchange_share": None, "overlap_share": None, "critical_path": None}
 
 
 @dataclass(frozen=True)
@@ -70,14 +71,38 @@ def walk(waits: dict[str, list[Wait]]) -> Iterator[Stretch]:
             time, process = own[i - 1].end, own[i - 1].whom
 
 
+def read_cuts(folder: Path) -> list[tuple[float, float]]:
+    """When the coupler cut the fluid's grid, in the order of time; empty if it did not."""
+    try:
+        with open(folder / "logs" / f"{COUPLER}_cuts.csv", newline="", encoding="utf-8") as file:
+            return [(float(begin), float(end)) for begin, end in list(csv.reader(file))[1:]]
+    except (OSError, ValueError):
+        return []
+
+
+def time_within(stretch: Stretch, intervals: list[tuple[float, float]]) -> float:
+    """Seconds of a stretch that lie in one of the intervals, which do not overlap."""
+    first = max(0, bisect_left(intervals, (stretch.begin,)) - 1)
+    sum_of_parts = 0.0
+    for begin, end in intervals[first:]:
+        if begin >= stretch.end:
+            break
+        sum_of_parts += max(0.0, min(end, stretch.end) - max(begin, stretch.begin))
+    return sum_of_parts
+
+
 def summary(folder: Path, processes: dict[str, dict]) -> dict | None:
-    """Seconds on the critical path per process and of messages, and the share of exchange; None if not all told."""
+    """Seconds on the critical path per process and of messages, the share of exchange, and the part of that share which
+    is the cutting of the grid; None if not all told."""
     waits = read_waits(folder, list(processes))
     if COUPLER not in waits or set(waits) != set(processes) or not all(waits.values()):
         return None
     path = dict.fromkeys([*processes, MESSAGES], 0.0)
+    cuts, cutting = read_cuts(folder), 0.0
     for stretch in walk(waits):
         path[stretch.process or MESSAGES] += stretch.end - stretch.begin
+        if stretch.process == COUPLER:
+            cutting += time_within(stretch, cuts)
     total = sum(path.values())
     if total <= 0:
         return None
@@ -86,4 +111,4 @@ def summary(folder: Path, processes: dict[str, dict]) -> dict | None:
         seconds = report.get("seconds") or {}
         if name != COUPLER and seconds:
             exchange += path[name] * seconds.get(MESSAGES, 0.0) / (seconds.get(MESSAGES, 0.0) + computed(seconds))
-    return {"exchange_share": exchange / total, "critical_path": path}
+    return {"exchange_share": exchange / total, "overlap_share": cutting / total, "critical_path": path}

@@ -122,7 +122,7 @@ def merge(folder: Path, scene: dict, names: list[str], outcome: Outcome, wall_ti
         "filter_frequency": (scene.get("run") or {}).get("filter_frequency"),
         **measured(found, series, processes, bool(scene.get("ice"))),
         "wall_time": wall_time,
-        **(critical_path.summary(folder, processes) or {"exchange_share": None, "critical_path": None}),
+        **(critical_path.summary(folder, processes) or critical_path.UNTOLD),
         "processes": processes,
         "effects": effect_reports(scene, found, processes),
     }

@@ -19,8 +19,8 @@ void add_motion(exchange::Message& message, const VehicleBody& body) {
   const std::size_t n = body.hull_vertices();
   std::vector<double> positions(3 * n), velocities(3 * n);
   body.hull_motion(positions, velocities);
-  message.add<double>("positions", {rows(n), 3}, positions);
-  message.add<double>("velocities", {rows(n), 3}, velocities);
+  message.add<double>("positions", {rows(n), 3}, std::move(positions));
+  message.add<double>("velocities", {rows(n), 3}, std::move(velocities));
 }
 
 void add_account(exchange::Message& message, const Account& account) {

@@ -12,9 +12,11 @@ namespace polynya::exchange {
 class Bytes {
  public:
   Bytes() = default;
-  explicit Bytes(std::vector<std::byte>&& values) {
-    const auto kept = std::make_shared<const std::vector<std::byte>>(std::move(values));
-    view_ = *kept;
+  /// Those of an array, which moves here.
+  template <class T>
+  explicit Bytes(std::vector<T>&& values) {
+    const auto kept = std::make_shared<const std::vector<T>>(std::move(values));
+    view_ = std::as_bytes(std::span<const T>(*kept));
     owner_ = kept;
   }
   explicit Bytes(std::span<const std::byte> values) : Bytes(std::vector<std::byte>(values.begin(), values.end())) {}

@@ -28,15 +28,25 @@ const Array& Message::array(std::string_view name) const {
   return *found;
 }
 
+void Message::add_bytes(std::string name, const char* type, std::vector<std::int64_t> shape, std::size_t count,
+                        Bytes bytes) {
+  Array array{std::move(name), type, std::move(shape), std::move(bytes)};
+  if (byte_count(array) != array.bytes.size())
+    throw ProtocolError("array '" + array.name + "' of message '" + kind() + "': shape " + shape_text(array) +
+                        " does not hold " + std::to_string(count) + " values");
+  if (has(array.name)) throw ProtocolError("message '" + kind() + "' has two arrays '" + array.name + "'");
+  arrays.push_back(std::move(array));
+}
+
 template <class T>
 void Message::add(std::string name, std::vector<std::int64_t> shape, std::span<const T> data) {
-  Array array{std::move(name), type_name<T>(), std::move(shape), {}};
-  if (byte_count(array) != data.size_bytes())
-    throw ProtocolError("array '" + array.name + "' of message '" + kind() + "': shape " + shape_text(array) +
-                        " does not hold " + std::to_string(data.size()) + " values");
-  if (has(array.name)) throw ProtocolError("message '" + kind() + "' has two arrays '" + array.name + "'");
-  array.bytes = Bytes(std::as_bytes(data));
-  arrays.push_back(std::move(array));
+  add_bytes(std::move(name), type_name<T>(), std::move(shape), data.size(), Bytes(std::as_bytes(data)));
+}
+
+template <class T>
+void Message::add(std::string name, std::vector<std::int64_t> shape, std::vector<T>&& data) {
+  const std::size_t count = data.size();
+  add_bytes(std::move(name), type_name<T>(), std::move(shape), count, Bytes(std::move(data)));
 }
 
 template <class T>
@@ -53,9 +63,13 @@ std::span<const T> Message::view(std::string_view name) const {
 }
 
 template void Message::add(std::string, std::vector<std::int64_t>, std::span<const double>);
+template void Message::add(std::string, std::vector<std::int64_t>, std::vector<double>&&);
 template void Message::add(std::string, std::vector<std::int64_t>, std::span<const std::int64_t>);
+template void Message::add(std::string, std::vector<std::int64_t>, std::vector<std::int64_t>&&);
 template void Message::add(std::string, std::vector<std::int64_t>, std::span<const std::int32_t>);
+template void Message::add(std::string, std::vector<std::int64_t>, std::vector<std::int32_t>&&);
 template void Message::add(std::string, std::vector<std::int64_t>, std::span<const std::uint8_t>);
+template void Message::add(std::string, std::vector<std::int64_t>, std::vector<std::uint8_t>&&);
 template std::span<const double> Message::view(std::string_view) const;
 template std::span<const std::int64_t> Message::view(std::string_view) const;
 template std::span<const std::int32_t> Message::view(std::string_view) const;

@@ -31,11 +31,17 @@ struct Message {
   /// Adds a copy of data (double, int64_t, int32_t or uint8_t).
   template <class T>
   void add(std::string name, std::vector<std::int64_t> shape, std::span<const T> data);
+  /// The same without a copy: the memory of data becomes the message's.
+  template <class T>
+  void add(std::string name, std::vector<std::int64_t> shape, std::vector<T>&& data);
   /// Read-only view of an array. Throws ProtocolError naming the message and the array when it is missing or of
   /// another type.
   template <class T>
   std::span<const T> view(std::string_view name) const;
   const Array& array(std::string_view name) const;
+
+ private:
+  void add_bytes(std::string name, const char* type, std::vector<std::int64_t> shape, std::size_t count, Bytes bytes);
 };
 
 }  // namespace polynya::exchange

@@ -9,6 +9,7 @@
 
 #include "core/exchange/errors.hpp"
 #include "core/exchange/hdf5_handle.hpp"
+#include "core/exchange/record_values.hpp"
 #include "core/exchange/wire.hpp"
 #include "core/results/durable_file.hpp"
 #include "core/results/error.hpp"
@@ -58,7 +59,12 @@ Handle make_rows(hid_t parent, const char* name, hid_t type, const std::vector<h
   const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, name);
   const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
   const bool empty = std::find(shape.begin(), shape.end(), 0) != shape.end();
-  if (compression == Compression::deflate && !empty) compress_rows(properties, name, type, shape);
+  if (compression == Compression::deflate && !empty) {
+    compress_rows(properties, name, type, shape);
+  } else {  // at one place, which is known at once
+    check(H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY), name);
+    check(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), name);
+  }
   return {H5Dcreate2(parent, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, name};
 }
 
@@ -104,7 +110,7 @@ void transfer_rows(hid_t set, const std::string& name, std::vector<hsize_t> shap
   check(transfer(part, all), name);
 }
 
-/// Small arrays are gathered: HDF5 takes longer over a call than over the bytes.
+/// HDF5 compresses what goes through it. Small arrays are gathered: it takes longer over a call than over the bytes.
 void write_values(hid_t set, const std::string& name, const std::vector<hsize_t>& shape, const ArraySeries& series) {
   std::vector<std::byte> batch;
   std::size_t begun = 0;
@@ -128,7 +134,10 @@ void write_values(hid_t set, const std::string& name, const std::vector<hsize_t>
   if (begun < series.values.size()) write(series.values.size(), batch.data());
 }
 
-void write_series(hid_t parent, const std::string& name, const ArraySeries& series, Compression compression) {
+/// Makes the data sets of a series. Values that are not compressed are left to be written to their place, which is
+/// added to `placed`: HDF5 takes longer over its calls than the kernel over the bytes.
+void write_series(hid_t parent, const std::string& name, const ArraySeries& series, Compression compression,
+                  std::vector<PlacedValues>& placed) {
   const Handle home = group(parent, link_name(name));
   std::vector<hsize_t> shape{static_cast<hsize_t>(series.first.back())};
   for (const std::int64_t extent : series.trailing) shape.push_back(static_cast<hsize_t>(extent));
@@ -136,13 +145,20 @@ void write_series(hid_t parent, const std::string& name, const ArraySeries& seri
   const std::int64_t scalar = series.scalar ? 1 : 0;
   hdf5::write_numbers<std::int64_t>(home, "scalar", {&scalar, 1});
   const Handle set = make_rows(home, "values", type_of(series.type), shape, compression);
-  write_values(set, name, shape, series);
+  if (compression != Compression::none) {
+    write_values(set, name, shape, series);
+  } else if (std::any_of(series.values.begin(), series.values.end(), [](const Bytes& b) { return !b.empty(); })) {
+    const haddr_t offset = H5Dget_offset(set);
+    check(offset == HADDR_UNDEF ? -1 : 0, name);
+    placed.push_back({offset, &series.values});
+  }
   write_column(home, "message", H5T_STD_I64LE, series.message);
   write_column(home, "first", H5T_STD_I64LE, series.first);
 }
 
-void write_all(const std::string& path, const RecordSegment& segment, const RecordLabel& label,
-               Compression compression) {
+/// All but the values that are left to be placed, which it returns.
+std::vector<PlacedValues> write_structure(const std::string& path, const RecordSegment& segment,
+                                          const RecordLabel& label, Compression compression) {
   const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path);
   write_label(file, label);
   {
@@ -155,11 +171,13 @@ void write_all(const std::string& path, const RecordSegment& segment, const Reco
   const Handle arrays = group(file, "arrays");
   std::string kind;
   std::optional<Handle> home;
+  std::vector<PlacedValues> placed;
   for (const auto& [key, series] : segment.series) {
     if (!home || kind != key.first) home.reset(), home.emplace(group(arrays, link_name(kind = key.first)));
-    write_series(*home, key.second, series, compression);
+    write_series(*home, key.second, series, compression, placed);
   }
   check(H5Fflush(file, H5F_SCOPE_GLOBAL), path);
+  return placed;
 }
 
 template <class T>
@@ -264,11 +282,13 @@ void write_segment(const std::string& path, const RecordSegment& segment, const 
                    Compression compression) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported once, by the exception
   results::create_folder_of(path);
+  std::vector<PlacedValues> placed;
   try {
-    write_all(results::aside(path), segment, label, compression);
+    placed = write_structure(results::aside(path), segment, label, compression);
   } catch (const hdf5::Refused& error) {
     throw results::ResultsError("cannot write " + path + ": HDF5 could not store " + error.what() + " (disk full?)");
   }
+  write_placed_values(results::aside(path), placed);
   // No fsync: the record survives the process, whose frames survive the machine; waiting for the disk would cost the
   // run.
   if (std::rename(results::aside(path).c_str(), path.c_str()) != 0) results::throw_file_error(path, errno);

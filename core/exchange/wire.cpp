@@ -37,6 +37,18 @@ json parse(std::string_view frame) {
   return header;
 }
 
+std::string dump(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+/// Written directly: there are several in every message, and their values are few.
+void append_descriptor(std::string& text, const Array& array) {
+  text.append("{\"name\":").append(dump(array.name)).append(",\"type\":\"").append(array.type).append("\",\"shape\":[");
+  for (const std::int64_t extent : array.shape) text.append(std::to_string(extent)) += ',';
+  if (!array.shape.empty()) text.pop_back();
+  text.append("]}");
+}
+
 Array decode_descriptor(const json& descriptor, const std::string& where) {
   if (!descriptor.is_object()) throw ProtocolError(where + " has an array descriptor that is not an object");
   Array array;
@@ -83,21 +95,21 @@ std::string encode_header(const Message& message, const Envelope& envelope) {
   for (const char* name : reserved_fields)
     if (message.header.contains(name))
       throw ProtocolError("message '" + message.kind() + "' may not have a field '" + name + "': the name is reserved");
-  json descriptors = json::array();
+  std::string text = dump(message.header);
+  text.pop_back();  // the brace
+  if (!message.header.empty()) text += ',';
+  text.append("\"protocol\":").append(std::to_string(envelope.protocol)).append(",\"run\":").append(dump(envelope.run));
+  text.append(",\"part\":1,\"parts\":1,\"arrays\":[");
   for (const Array& array : message.arrays) {
     if (array.bytes.size() != byte_count(array))
       throw ProtocolError("array '" + array.name + "' of message '" + message.kind() + "' has " +
                           std::to_string(array.bytes.size()) + " bytes, its shape " + shape_text(array) + " needs " +
                           std::to_string(byte_count(array)));
-    descriptors.push_back({{"name", array.name}, {"type", array.type}, {"shape", array.shape}});
+    append_descriptor(text, array);
+    text += ',';
   }
-  json header = message.header;
-  header["protocol"] = envelope.protocol;
-  header["run"] = envelope.run;
-  header["part"] = 1;
-  header["parts"] = 1;
-  header["arrays"] = std::move(descriptors);
-  return header.dump(-1, ' ', false, json::error_handler_t::replace);
+  if (!message.arrays.empty()) text.pop_back();
+  return text.append("]}");
 }
 
 Message decode_header(std::string_view frame, Envelope& envelope) {

@@ -15,7 +15,7 @@ from runs import ROOT, polynya, scratch, summary_of
 from test_loss_of_a_process import wait_until
 
 # Of the summary: what the wall clock, the memory and the folder say.
-NOT_RESULTS = {"wall_time", "processes", "effects", "critical_path", "exchange_share", "run", "threads",
+NOT_RESULTS = {"wall_time", "processes", "effects", "critical_path", "exchange_share", "overlap_share", "run", "threads",
                "peak_memory", "cpu_time", "estimate"}
 
 

@@ -98,7 +98,7 @@ class WhereTheTimeGoes(unittest.TestCase):
         self.assertEqual(set(path), {"coupler", "structure", "ice", "fluid", "messages"})
         self.assertLess(sum(path.values()), self.summary["wall_time"])
         self.assertGreater(path["fluid"], 0)
-        self.assertTrue(0 < self.summary["exchange_share"] < 1)
+        self.assertTrue(0 < self.summary["overlap_share"] < self.summary["exchange_share"] < 1)
 
     def test_memory_is_that_of_the_process_not_of_the_launcher(self):
         """The launcher holds some 55 MB, which getrusage would pass on; the coupler needs about 12 MB."""

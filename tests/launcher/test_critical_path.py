@@ -53,6 +53,15 @@ class CriticalPath(unittest.TestCase):
         self.assertAlmostEqual(self.summary()["exchange_share"], 2.3 / 10.9)
         self.assertAlmostEqual(self.summary(half_packing)["exchange_share"], 4.3 / 10.9)
 
+    def test_cutting_of_the_grid_counts_where_the_others_waited_for_it(self):
+        self.write(WAITS)
+        self.assertEqual(self.summary()["overlap_share"], 0)
+        # Until 3.1 the ice was what the others waited for, after 4 the fluid.
+        (self.folder / "logs/coupler_cuts.csv").write_text("from [s],to [s]\n2.9,3.7\n3.8,4.4\n5,6\n8.5,8.6\n")
+        told = self.summary()
+        self.assertAlmostEqual(told["overlap_share"], (0.6 + 0.2 + 0.1) / 10.9)
+        self.assertAlmostEqual(told["exchange_share"], 2.3 / 10.9)  # it is a part of this
+
     def test_is_unknown_when_a_process_tells_nothing(self):
         self.write({name: rows for name, rows in WAITS.items() if name != "ice"})
         self.assertIsNone(self.summary())

@@ -68,6 +68,15 @@ TEST(Message, ArrivesBitForBit) {
   EXPECT_TRUE(back.view<double>("none").empty());
 }
 
+TEST(Message, TakesTheMemoryOfAnArrayThatMovesIntoIt) {
+  std::vector<double> values{1, 2, 3};
+  const double* where = values.data();
+  Message message("surface");
+  message.add("x", {3}, std::move(values));
+  EXPECT_EQ(message.view<double>("x").data(), where);
+  EXPECT_EQ(message.view<double>("x")[2], 3.0);
+}
+
 TEST(Message, LargeArrayArrivesWhole) {
   const SocketFolder folder;
   Hub hub(folder.endpoint(), "r", {"solid"});
@@ -110,6 +119,24 @@ TEST(Message, ReservedFieldsCannotBeOverwritten) {
   Message message("surface");
   message.header["run"] = "another";
   EXPECT_THROW(encode_header(message, {1, "r"}), ProtocolError);
+}
+
+TEST(Header, ComesBackWithNamesThatJsonHasToEscape) {
+  Message message("surface");
+  message.header["note"] = "\"a\\b\"\n";
+  message.add<double>("quote \" and \\ and \n", {1, 1, 1}, std::vector<double>{1.5});
+  message.add<std::int64_t>("scalar", {}, std::vector<std::int64_t>{-3});
+  Envelope envelope;
+  const Message read = decode_header(encode_header(message, {2, "run \"7\""}), envelope);
+  EXPECT_EQ(read.header, message.header);
+  EXPECT_EQ(envelope.protocol, 2);
+  EXPECT_EQ(envelope.run, "run \"7\"");
+  ASSERT_EQ(read.arrays.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(read.arrays[i].name, message.arrays[i].name);
+    EXPECT_EQ(read.arrays[i].type, message.arrays[i].type);
+    EXPECT_EQ(read.arrays[i].shape, message.arrays[i].shape);
+  }
 }
 
 TEST(Header, GoodOneIsReadAndStrippedOfTheEnvelope) {
