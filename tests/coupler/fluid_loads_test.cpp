@@ -54,7 +54,7 @@ struct RisingCube {
     side.impedance.assign(48, 0.0);
     side.velocity_sum.assign(24, 0.0);
     conversation.solids.push_back(side);
-    overlap.emplace(fluid, false, 0.0);
+    overlap.emplace(fluid, false, 0.0, false);
     before = cut();
     for (std::size_t v = 0; v < 8; ++v) cube().positions[3 * v + 2] += 0.25;
     now = cut();

@@ -82,8 +82,8 @@ TEST(StructureConversation, WindowsFollowTheProtocolAndMomentumIsTheImpulse) {
     Message begin("begin");
     begin.header["time"] = 0.0;
     begin.header["step"] = dt;
-    begin.add<std::int64_t>("load.vertices", {0}, {});
-    begin.add<double>("load.forces", {0, 3}, {});
+    begin.add("load.vertices", {0}, std::vector<std::int64_t>{});
+    begin.add("load.forces", {0, 3}, std::vector<double>{});
     solver.hub.send("structure", begin);
     std::vector<double> before(ready.view<double>("positions").begin(), ready.view<double>("positions").end());
     constexpr long windows = 200;
@@ -138,8 +138,8 @@ Message after_a_quiet_time(bool deformable, const std::vector<double>& quiet, bo
   constexpr double dt = 4e-8;
   Message begin("begin");
   begin.header.update({{"time", 0.0}, {"step", dt}});
-  begin.add<std::int64_t>("load.vertices", {0}, {});
-  begin.add<double>("load.forces", {0, 3}, {});
+  begin.add("load.vertices", {0}, std::vector<std::int64_t>{});
+  begin.add("load.forces", {0, 3}, std::vector<double>{});
   solver.hub.send("structure", begin);
   constexpr long loaded = 50;
   const long windows = loaded + static_cast<long>(quiet.size());
@@ -200,8 +200,8 @@ TEST(StructureConversation, LoadsOnVerticesThatAreNotThereAreRefused) {
   Message begin("begin");
   begin.header["time"] = 0.0;
   begin.header["step"] = 1e-7;
-  begin.add<std::int64_t>("load.vertices", {0}, {});
-  begin.add<double>("load.forces", {0, 3}, {});
+  begin.add("load.vertices", {0}, std::vector<std::int64_t>{});
+  begin.add("load.forces", {0, 3}, std::vector<double>{});
   solver.hub.send("structure", begin);
   solver.hub.receive("structure", "surface");
   Message loads("loads");

@@ -46,8 +46,8 @@ TEST(PythonExample, FollowsCentralDifferencesUnderConstantLoad) {
   Message begin("begin");
   begin.header["time"] = 0.0;
   begin.header["step"] = step;
-  begin.add<std::int64_t>("load.vertices", {0}, {});
-  begin.add<double>("load.forces", {0, 3}, {});
+  begin.add("load.vertices", {0}, std::vector<std::int64_t>{});
+  begin.add("load.forces", {0, 3}, std::vector<double>{});
   hub.send("vehicle", std::move(begin));
   // The load acts at the times 1, 2, 3 ... steps, so position n has gained dt^2 F/m (0 + 1 + ... + (n - 1)).
   for (int window = 0; window < 5; ++window) {
@@ -77,8 +77,8 @@ TEST(PythonExample, TakesEmptyLoadsAndEndsOnStop) {
   Message begin("begin");
   begin.header["time"] = 0.0;
   begin.header["step"] = 1e-6;
-  begin.add<std::int64_t>("load.vertices", {0}, {});
-  begin.add<double>("load.forces", {0, 3}, {});
+  begin.add("load.vertices", {0}, std::vector<std::int64_t>{});
+  begin.add("load.forces", {0, 3}, std::vector<double>{});
   hub.send("vehicle", std::move(begin));
   hub.receive("vehicle", "surface");
   hub.send("vehicle", loads(0, 1e-6, false, false));
