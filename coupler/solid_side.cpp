@@ -130,6 +130,7 @@ void read_ready(SolidSide& side, const exchange::Message& ready) {
 
 void read_surface(SolidSide& side, const exchange::Message& surface) {
   side.stable_step = surface.header.at("stable_step").get<double>();
+  side.can_subdivide = surface.header.value("can_subdivide", side.can_subdivide);
   side.account.update(surface);
   side.topology_changed = surface.header.value("topology_changed", false);
   if (!side.topology_changed) {

@@ -28,13 +28,18 @@ void add_account(exchange::Message& message, const Account& account) {
   message.add<double>("account", {rows(values.size())}, values);
 }
 
+/// How long two bodies stay apart is worked out from speeds that go on as they are: not those of a body that turns.
+bool moves_straight(const VehicleBody& body) {
+  const std::optional<Attitude> attitude = body.attitude();
+  return !attitude || attitude->angular_velocity == std::array<double, 3>{};
+}
+
 exchange::Message make_ready(const BuiltVehicle& vehicle, const Account& account, double time) {
   exchange::Message ready("ready");
   ready.header["role"] = "solid";
   ready.header["body"] = "vehicle";
   ready.header["stable_step"] = vehicle.body->stable_step();
-  // How long two bodies stay apart is worked out from speeds that go on as they are: not those of a body that turns.
-  ready.header["can_subdivide"] = !vehicle.body->attitude().has_value();
+  ready.header["can_subdivide"] = moves_straight(*vehicle.body);
   ready.header["can_checkpoint"] = true;
   ready.header["time"] = time;
   for (const AccountEntry& entry : account_entries) ready.header["account"].push_back(std::string(entry.name));
@@ -76,6 +81,7 @@ exchange::Message make_surface(long window, double time, const VehicleBody& body
   surface.header["window"] = window;
   surface.header["time"] = time;
   surface.header["stable_step"] = body.stable_step();
+  surface.header["can_subdivide"] = moves_straight(body);
   surface.header["topology_changed"] = false;
   add_motion(surface, body);
   add_account(surface, account);

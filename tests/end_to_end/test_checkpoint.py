@@ -92,6 +92,18 @@ class Resume(Comparison):
                              "run.frame_interval='50 ms'")
 
 
+def spoil(checkpoint: Path) -> None:
+    """Overwrites values of the largest data set."""
+    with h5py.File(checkpoint) as file:
+        found = []
+        file.visititems(lambda _, item: found.append(item) if isinstance(item, h5py.Dataset) else None)
+        largest = max(found, key=lambda item: item.id.get_storage_size())
+        place, size = largest.id.get_offset(), largest.id.get_storage_size()
+    with open(checkpoint, "r+b") as file:
+        file.seek(place)
+        file.write(b"\xa5" * min(size, 1000))
+
+
 class ALaterEnd(Comparison):
     def test_a_finished_run_goes_on_to_a_later_end_and_refuses_what_does_not_fit(self):
         drop = ["run", "cases/vehicle_drop", "--no-pictures", "--json", "--set", "vehicle.nose_position='-0.5 mm'",
@@ -102,9 +114,7 @@ class ALaterEnd(Comparison):
             self.assertEqual(len(manifests(run)), 2)
 
             shutil.copytree(run, copy)
-            with open(sorted(Path(copy, "checkpoints").glob("*/ice.h5"))[-1], "r+b") as file:
-                file.seek(-1000, os.SEEK_END)
-                file.write(bytes(1000))
+            spoil(sorted(Path(copy, "checkpoints").glob("*/ice.h5"))[-1])
             refused = polynya("resume", copy, "--no-pictures", "--set", "run.end_time='50 us'")
             self.assertEqual(refused.returncode, 2, refused.stderr)
             self.assertIn("is damaged", refused.stderr)
@@ -132,19 +142,17 @@ class ALaterEnd(Comparison):
             self.assertEqual(fields_of(run), fields_of(whole))
 
     def test_windows_cut_to_the_end_are_in_no_checkpoint(self):
-        """Apart, the solids take long windows of their own, the last one to the end; a later end makes it longer."""
+        """Apart, the solids take long windows of their own. Of the short ones that are left before the end, with a later
+        end there would be none."""
         drop = ["run", "cases/vehicle_drop", "--no-pictures", "--json", "--set", "vehicle.nose_position='-2 mm'",
                 "--set", "run.frame_interval='4 us'", "--set", "checkpoint.interval='0.1 us'"]
         with scratch() as folder:
-            run, whole = f"{folder}/run", f"{folder}/whole"
-            summary_of(polynya(*drop, "--set", "run.end_time='6 us'", "--out", run))
-            last = json.loads(manifests(run)[-1].read_text())["time"]
-            self.assertLess(last, 4.5e-6)  # of the windows before the frame at 4 us, none of those before the end
-            summary_of(polynya("resume", run, "--no-pictures", "--json", "--set", "run.end_time='9 us'"))
-            summary_of(polynya(*drop, "--set", "run.end_time='9 us'", "--out", whole))
-            for name in ("coupler.csv", "ledger.csv"):
-                self.assertEqual(series_of(run)[name], series_of(whole)[name], name)
-            self.assertEqual(fields_of(run), fields_of(whole))
+            run = f"{folder}/run"
+            self.assertGreater(summary_of(polynya(*drop, "--set", "run.end_time='5 us'", "--out", run))["steps"], 3)
+            self.assertEqual(manifests(run), [])
+            refused = polynya("resume", run, "--set", "run.end_time='9 us'")
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn("no checkpoint yet", refused.stderr)
 
     def test_a_run_with_a_program_that_writes_no_checkpoints_says_so(self):
         with scratch() as folder:
