@@ -148,7 +148,7 @@ class ALaterEnd(Comparison):
                 "--set", "run.frame_interval='4 us'", "--set", "checkpoint.interval='0.1 us'"]
         with scratch() as folder:
             run = f"{folder}/run"
-            self.assertGreater(summary_of(polynya(*drop, "--set", "run.end_time='5 us'", "--out", run))["steps"], 3)
+            self.assertGreater(summary_of(polynya(*drop, "--set", "run.end_time='4.1 us'", "--out", run))["steps"], 3)
             self.assertEqual(manifests(run), [])
             refused = polynya("resume", run, "--set", "run.end_time='9 us'")
             self.assertEqual(refused.returncode, 2)
