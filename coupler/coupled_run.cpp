@@ -12,6 +12,7 @@
 #include "coupler/checkpointing.hpp"
 #include "coupler/conversation.hpp"
 #include "coupler/end_condition.hpp"
+#include "coupler/handed_loads.hpp"
 #include "coupler/pacing.hpp"
 #include "coupler/recording.hpp"
 #include "coupler/run_state.hpp"
@@ -62,8 +63,6 @@ void begin(Run& run, const std::vector<std::string>& names) {
     exchange::Message message("begin");
     message.header["time"] = 0.0;
     add_overlap(message, cells, fluid.grid);
-    if (const SolidSide* ice = run.conversation.find(Body::ice))
-      run.slowest_answer = ice_share_of_step * ice->stable_step;
     bound_lag(run, cells);
     run.conversation.hub.send(fluid.name, std::move(message));
     run.overlap->prepare();
@@ -183,46 +182,18 @@ void take_fluid_loads(Run& run, const exchange::Message& answer) {
     side.seen_velocity = side.mean_velocity();
     side.restart_mean();
   }
+  FluidAnswer given = read_answer(answer, run.overlap->walls_before(), run.overlap->walls(), fluid.forecasts);
   if (run.keeper.span == 0) {
-    // The first span fits the flow of the start to the walls' first motion: no loads come of it, the books open after
-    // it.
+    // The first span fits the flow of the start to the walls' first motion: no loads come of it but what is expected of
+    // the next one, and the books open after it.
     fluid.account.set_initial(answer);
+    given.impulse = {};
+    run.overlap->take(run.conversation, given, 0.0, run.ledger);
     return;
   }
-  const FluidAnswer given = read_answer(answer, run.overlap->walls_before(), run.overlap->walls());
   run.overlap->take(run.conversation, given, length, run.ledger);
   run.ledger.fluid_reported = {fluid.account.change("impulse_vehicle_z"), fluid.account.change("impulse_ice_z")};
   run.monitor->note_pressure(cells, fluid.grid, given.at_end.value);
-}
-
-/// Force of the fluid on a vertex that moves otherwise than the fluid has seen: sound carries the difference away.
-std::array<double, 3> radiation_force(const SolidSide& side, std::size_t v) {
-  const double* z = &side.impedance[6 * v];
-  double u[3];
-  for (int d = 0; d < 3; ++d) u[d] = side.velocities[3 * v + d] - side.seen_velocity[3 * v + d];
-  return {-(z[0] * u[0] + z[3] * u[1] + z[5] * u[2]), -(z[3] * u[0] + z[1] * u[1] + z[4] * u[2]),
-          -(z[5] * u[0] + z[4] * u[1] + z[2] * u[2])};
-}
-
-/// Takes one window's share of the outstanding fluid impulses as forces of this window. Those loads are old by more
-/// than a span, and a wall that oscillates faster would be driven by them. So the change since then is answered at once
-/// by the water's impedance; the impulse of it is taken from what is outstanding, and the fluid's own answer replaces
-/// it later.
-void hand_on_fluid_impulse(Run& run, double acting_time) {
-  const double share = 1.0 / static_cast<double>(std::max(1L, run.keeper.windows_left));
-  for (SolidSide& side : run.conversation.solids) {
-    side.fluid_force.assign(side.fluid_impulse.size(), 0.0);
-    for (std::size_t v = 0; v < side.vertices(); ++v) {
-      const std::array<double, 3> radiation = radiation_force(side, v);
-      for (int d = 0; d < 3; ++d) {
-        const std::size_t i = 3 * v + d;
-        const double impulse = share * side.fluid_impulse[i] + acting_time * radiation[d];
-        side.fluid_impulse[i] -= impulse;
-        side.fluid_force[i] = impulse / acting_time;
-        run.ledger.fluid_taken[static_cast<int>(side.body)][d] += impulse;
-      }
-    }
-  }
 }
 
 void write_ledger(Run& run, double acting_time) {
@@ -277,7 +248,10 @@ void give_loads(Run& run, bool span_ends, long frame) {
   const double acting_time = run.keeper.acting_time(next);
   {
     const auto lap = run.watch.lap("fluid_loads");
-    hand_on_fluid_impulse(run, acting_time);
+    for (SolidSide& side : run.conversation.solids) {
+      const Impulse handed = hand_on_fluid_loads(side, acting_time);
+      for (std::size_t d = 0; d < 3; ++d) run.ledger.fluid_taken[static_cast<int>(side.body)][d] += handed[d];
+    }
   }
   {
     const auto lap = run.watch.lap("messages");

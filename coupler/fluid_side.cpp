@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/contact/vector3.hpp"
 #include "core/exchange/errors.hpp"
 #include "coupler/solid_side.hpp"
 
@@ -13,6 +14,7 @@ FluidSide read_fluid_ready(const std::string& name, const exchange::Message& rea
   side.name = name;
   side.stable_step = ready.header.at("stable_step").get<double>();
   side.can_checkpoint = ready.header.value("can_checkpoint", false);
+  side.forecasts = ready.header.value("forecasts", false);
   side.ready_time = ready.header.value("time", 0.0);
   side.account.set_names(ready);
   const auto line = [&](const char* array) {
@@ -104,6 +106,10 @@ void add_cells(exchange::Message& message, const geometry::CutCells& cut, const 
   add_column(message, "wall", rows(cut.cell, walled));
   message.add("wall_area", {walls, body_count, 3}, rows(cut.wall_area, walled, 3 * body_count));
   message.add("wall_velocity", {walls, body_count, 3}, rows(cut.wall_velocity, walled, 3 * body_count));
+  std::vector<double> size(cut.cell.size(), 0.0);
+  for (const geometry::WallPiece& piece : cut.pieces)
+    size[static_cast<std::size_t>(piece.entry)] += contact::norm(piece.area);
+  add_column(message, "wall_size", rows(size, walled));
 }
 
 void add_faces(exchange::Message& message, const std::string& name, const geometry::CutFaces& faces) {
@@ -150,15 +156,17 @@ WallPressure read_pressure(const exchange::Message& message, const std::string& 
   return pressure;
 }
 
-FluidAnswer read_answer(const exchange::Message& message, std::size_t walls_before, std::size_t walls) {
+FluidAnswer read_answer(const exchange::Message& message, std::size_t walls_before, std::size_t walls, bool forecasts) {
   const auto pressure = [&](const std::string& prefix, std::size_t count) {
     return WallPressureView{values_at_walls(message, prefix + "values", 1, count),
                             values_at_walls(message, prefix + "gradient_z", 1, count)};
   };
-  FluidAnswer answer{pressure("pressure.previous_", walls_before), pressure("pressure.", walls), {}, {}};
+  FluidAnswer answer{pressure("pressure.previous_", walls_before), pressure("pressure.", walls), {}, {}, {}};
   if (message.has("pressure.impulse"))
     answer.impulse = values_at_walls(message, "pressure.impulse", 3 * body_count, walls);
-  if (message.has("pressure.impedance")) answer.impedance = values_at_walls(message, "pressure.impedance", 1, walls);
+  if (!forecasts) return answer;
+  answer.forecast = values_at_walls(message, "pressure.forecast", 1, walls);
+  answer.impedance = values_at_walls(message, "pressure.impedance", 1, walls);
   return answer;
 }
 

@@ -25,7 +25,9 @@ struct FluidAnswer {
   WallPressureView at_start, at_end;  ///< of the cut before and of the last one
   std::span<const double> impulse;    ///< [walls of the last cut][2][3] N s, given otherwise than by pressure; spreads
                                       ///< over a cell's pieces of wall by area. May be empty
-  std::span<const double> impedance;  ///< [walls of the last cut] kg/(m^2 s), at each cell's wall. May be empty
+  // Of the next span, [walls of the last cut]; empty where the fluid does not forecast.
+  std::span<const double> forecast;   ///< Pa, gauge, if walls and fluid go on as they moved
+  std::span<const double> impedance;  ///< kg/(m^2 s), more for walls that move faster into the fluid
 };
 
 /// What the coupler knows of the fluid participant.
@@ -36,9 +38,11 @@ struct FluidSide {
   Account account;
   geometry::GridLines grid;
   bool can_checkpoint = false;
-  double ready_time = 0;  ///< s, as a solid's
+  bool forecasts = false;  ///< every answer to a span tells what to expect of the next one
+  double ready_time = 0;   ///< s, as a solid's
 
-  POLYNYA_STATE_WITHOUT((grid, ready_time), name, stable_step, new_threads, account, grid, can_checkpoint, ready_time)
+  POLYNYA_STATE_WITHOUT((grid, ready_time), name, stable_step, new_threads, account, grid, can_checkpoint, forecasts,
+                        ready_time)
 };
 
 FluidSide read_fluid_ready(const std::string& name, const exchange::Message& ready);
@@ -52,8 +56,8 @@ void add_overlap(exchange::Message& message, const geometry::CutCells& cut, cons
 /// does not fit.
 WallPressure read_pressure(const exchange::Message& message, const std::string& prefix, const geometry::CutCells& cut);
 
-/// The answer to a span, with the numbers of walls of the cut before and of the last one. Throws ProtocolError when the
-/// number of values does not fit.
-FluidAnswer read_answer(const exchange::Message& message, std::size_t walls_before, std::size_t walls);
+/// The answer to a span, with the numbers of walls of the cut before and of the last one, from a fluid that `forecasts`
+/// or not. Throws ProtocolError when the number of values does not fit.
+FluidAnswer read_answer(const exchange::Message& message, std::size_t walls_before, std::size_t walls, bool forecasts);
 
 }  // namespace polynya::coupler

@@ -102,25 +102,32 @@ void OverlapExchange::take(Conversation& conversation, const FluidAnswer& answer
   Given at_start, at_end;
   // Neither needs the other; the longer one first.
   compute::for_uneven_chunks(2, 1, [&](std::size_t sum, std::size_t) {
-    if (sum == 0) at_end = spread(now_, answer.at_end, 0.5 * span, answer.impulse, answer.impedance);
-    if (sum == 1) at_start = spread(before_, answer.at_start, 0.5 * span, {}, {});
+    if (sum == 0) at_end = spread(now_, answer.at_end, 0.5 * span, &answer);
+    if (sum == 1) at_start = spread(before_, answer.at_start, 0.5 * span, nullptr);
   });
   book(conversation, before_, at_start, 0.5 * span, ledger);
   book(conversation, now_, at_end, 0.5 * span, ledger);
-  if (answer.impedance.empty()) return;
-  for (SolidSide& side : conversation.solids)
+  if (answer.forecast.empty()) return;
+  for (SolidSide& side : conversation.solids) {
+    side.expected_force = std::move(at_end.expected[static_cast<std::size_t>(side.body)]);
     side.impedance = std::move(at_end.impedance[static_cast<std::size_t>(side.body)]);
+  }
 }
 
 /// One pass through the pieces of wall does all: to read them takes longer than what is computed of them.
 OverlapExchange::Given OverlapExchange::spread(const Cut& cut, const WallPressureView& pressure, double time,
-                                               std::span<const double> impulse, std::span<const double> impedance) {
+                                               const FluidAnswer* last) {
   Given given;
+  const std::span<const double> impulse = last ? last->impulse : std::span<const double>();
+  const bool forecast = last && !last->forecast.empty();
   std::array<const std::int32_t*, body_count> triangles{};
   for (const Cut::Surface& surface : cut.surfaces) {
     const auto body = static_cast<std::size_t>(surface.body);
     given.impulse[body].assign(surface.positions.size(), 0.0);
-    if (!impedance.empty()) given.impedance[body].assign(2 * surface.positions.size(), 0.0);
+    if (forecast) {
+      given.expected[body].assign(surface.positions.size(), 0.0);
+      given.impedance[body].assign(2 * surface.positions.size(), 0.0);
+    }
     triangles[body] = surface.triangles.data();
   }
   for (std::size_t p = 0; p < cut.cells.pieces.size(); ++p) {
@@ -142,8 +149,14 @@ OverlapExchange::Given OverlapExchange::spread(const Cut& cut, const WallPressur
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t d = 0; d < 3; ++d)
         given.impulse[body][3 * static_cast<std::size_t>(vertex[i]) + d] += piece.weights[i] * sum[d];
-    if (!impedance.empty() && cut.piece_size[p] > 0)
-      add_impedance(piece, vertex, impedance[wall] / cut.piece_size[p], given.impedance[body]);
+    if (!forecast) continue;
+    const double expected = last->forecast[wall] - rise;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t d = 0; d < 3; ++d)
+        given.expected[body][3 * static_cast<std::size_t>(vertex[i]) + d] -=
+            expected * piece.weights[i] * piece.area[d];
+    if (cut.piece_size[p] > 0)
+      add_impedance(piece, vertex, last->impedance[wall] / cut.piece_size[p], given.impedance[body]);
   }
   return given;
 }

@@ -32,7 +32,8 @@ class OverlapExchange {
   void set_start_forces(Conversation& conversation, const WallPressure& pressure) const;
 
   /// Adds the impulses of a span of length `span` (s) to the solids' outstanding fluid impulses and to the ledger, and
-  /// gives the vertices their impedance. After `prepare`. Surfaces may have lost vertices since the cut before.
+  /// gives the vertices what the fluid expects of the next one: force and impedance. After `prepare`. Surfaces may have
+  /// lost vertices since the cut before.
   void take(Conversation& conversation, const FluidAnswer& answer, double span, Ledger& ledger) const;
 
   /// Of all cuts so far.
@@ -84,14 +85,14 @@ class OverlapExchange {
   /// What the pieces of one cut hand from the fluid to the vertices of its surfaces.
   struct Given {
     PerBody impulse;                           ///< [nv][3] N s
-    PerBody impedance;                         ///< [nv][6] kg/s; empty if the fluid tells none
+    PerBody expected;                          ///< [nv][3] N, in the next span; empty if the fluid does not forecast
+    PerBody impedance;                         ///< [nv][6] kg/s; likewise
     std::array<double, body_count> weight{};   ///< N s, part of the vertical impulse: see Ledger::fluid_weight
     std::array<double, body_count> carried{};  ///< N s, likewise: Ledger::fluid_carried
     std::array<double, body_count> area_z{};   ///< m^2, into the body
   };
-  /// Pressures that acted for `time` (s), and whatever else is given by the walls of the cut.
-  static Given spread(const Cut& cut, const WallPressureView& pressure, double time, std::span<const double> impulse,
-                      std::span<const double> impedance);
+  /// Pressures that acted for `time` (s), and what else an answer gives by the walls of the last cut.
+  static Given spread(const Cut& cut, const WallPressureView& pressure, double time, const FluidAnswer* last);
   /// Hands it to the solids, and to the ledger.
   void book(Conversation& conversation, const Cut& cut, const Given& given, double time, Ledger& ledger) const;
 

@@ -7,6 +7,7 @@
 
 #include "core/compute/threads.hpp"
 #include "coupler/end_condition.hpp"
+#include "coupler/handed_loads.hpp"
 #include "coupler/horizon.hpp"
 #include "coupler/stability_limits.hpp"
 
@@ -48,18 +49,28 @@ double quiet_time(Run& run) {
   return std::min({time_apart(*vehicle, *ice, run.scene.run.gravity), until_frame, until_event});
 }
 
-/// The fluid's first answer comes at the end of span 1. Until then its pressure at time 0 acts on.
-void give_start_impulses(Run& run, double span) {
-  if (run.keeper.span > 1) return;
+/// The pressure at time 0 acts until the fluid expects something else, or has answered: it is given to the solids, not
+/// taken from the fluid.
+void give_start_impulse(SolidSide& side, double span, Ledger& ledger) {
+  const int body = static_cast<int>(side.body);
+  for (std::size_t i = 0; i < side.start_force.size(); ++i) {
+    const double impulse = span * side.start_force[i];
+    side.fluid_impulse[i] += impulse;
+    ledger.fluid_given[body][i % 3] += impulse;
+    ledger.fluid_start[body][i % 3] += impulse;
+  }
+}
+
+void begin_loads(Run& run, double span) {
+  if (!run.conversation.fluid) return;
+  const bool expects = run.conversation.fluid->forecasts && run.keeper.span > 0;
   for (SolidSide& side : run.conversation.solids) {
-    const int body = static_cast<int>(side.body);
-    for (std::size_t i = 0; i < side.start_force.size(); ++i) {
-      const double impulse = span * side.start_force[i];
-      side.fluid_impulse[i] += impulse;
-      run.ledger.fluid_given[body][i % 3] += impulse;
-      run.ledger.fluid_start[body][i % 3] += impulse;
-    }
+    if (!expects && run.keeper.span <= 1) give_start_impulse(side, span, run.ledger);
     if (run.keeper.span == 1) side.start_force.clear();
+    begin_span_loads(side, {.span = span,
+                            .last_span = run.keeper.time - run.keeper.span_start,
+                            .window = run.planned_step,
+                            .expects = expects});
   }
 }
 
@@ -75,15 +86,19 @@ void refresh_limits(Run& run) {
 
 void plan_next_span(Run& run) {
   refresh_limits(run);
-  const SpanPlan plan = plan_span(run.limits);
+  limit_growth(run.limits, run.plan.step > 0 ? &run.plan : nullptr);
+  run.plan = plan_span(run.limits);
+  const SpanPlan& plan = run.plan;
   run.planned_step = plan.step;
   run.keeper.windows_left = plan.windows;
-  run.keeper.span_start = run.keeper.time;
   watch_step(run);
-  give_start_impulses(run, plan.step * static_cast<double>(plan.windows));
+  begin_loads(run, plan.step * static_cast<double>(plan.windows));
+  run.keeper.span_start = run.keeper.time;
 }
 
 void bound_lag(Run& run, const geometry::CutCells& cells) {
+  if (run.conversation.fluid->forecasts) return;
+  refresh_limits(run);
   const LightestWall wall = lightest_wall(run.conversation, cells);
   const double limit = lag_limit(wall, run.scene);
   if (limit < 0.8 * run.logged_lag_limit) {
@@ -96,7 +111,7 @@ void bound_lag(Run& run, const geometry::CutCells& cells) {
         run.keeper.time, limit, wall.body == Body::ice ? "ice" : "vehicle", wall.areal_mass, grid.lines[0][position[0]],
         grid.lines[1][position[1]], grid.lines[2][position[2]]);
   }
-  run.limits.lag_limit = std::min(limit, run.slowest_answer);
+  run.limits.lag_limit = std::min(limit, held_share_of_step * run.limits.solid_stable);
 }
 
 double next_length(Run& run, double step, bool span_ends) {

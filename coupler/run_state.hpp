@@ -25,6 +25,7 @@ struct Run {
   compute::Stopwatch watch;
   TimeKeeper keeper;
   StepLimits limits;
+  SpanPlan plan;  ///< of the span at work
   Ledger ledger;
   LedgerFile ledger_file;
   std::array<WorkMeter, body_count> work;
@@ -34,7 +35,6 @@ struct Run {
   std::optional<Monitor> monitor;
   double planned_step = 0, first_planned_step = 0, next_frame_time = 0;
   double logged_lag_limit = 1;  ///< s
-  double slowest_answer = 1;    ///< s, longest span that lets the fluid follow the fastest motion of the intact ice
   bool step_warned = false;
   long frame = 0, cuts = 0;
   std::string end;  ///< why the run ends; empty while it goes on
@@ -66,10 +66,10 @@ struct Run {
   /// Between windows.
   POLYNYA_STATE_WITHOUT((scene, folder, watch, balance, span_began, checkpoints, schedule, checkpoint, fitted_to_end,
                          pending),
-                        scene, folder, conversation, watch, keeper, limits, ledger, ledger_file, work, contact,
+                        scene, folder, conversation, watch, keeper, limits, plan, ledger, ledger_file, work, contact,
                         topology_changed, overlap, monitor, planned_step, first_planned_step, next_frame_time,
-                        logged_lag_limit, slowest_answer, step_warned, frame, cuts, end, balance, span_began,
-                        span_window, checkpoints, schedule, checkpoint, fitted_to_end, pending)
+                        logged_lag_limit, step_warned, frame, cuts, end, balance, span_began, span_window, checkpoints,
+                        schedule, checkpoint, fitted_to_end, pending)
 
   contact::ContactLaw contact_law(const contact::Body& vehicle, const contact::Body& ice) const {
     contact::ContactLaw law;

@@ -30,14 +30,16 @@ struct SolidSide {
   std::vector<double> velocities;              ///< m/s, in the middle of the window
   bool topology_changed = false;
 
-  std::vector<double> contact_force;  ///< N, of this window
-  std::vector<double> fluid_force;    ///< N, of this window
-  std::vector<double> fluid_impulse;  ///< N s, given by the fluid and not yet handed on
-  std::vector<double> start_force;    ///< N, of the fluid at time 0; empty once the fluid's answers have come
-  std::vector<double> impedance;      ///< [nv][6] kg/s: xx, yy, zz, xy, yz, zx; resistance of the fluid to a vertex
-  std::vector<double> seen_velocity;  ///< m/s, mean over the span that the fluid answered last
-  std::vector<double> velocity_sum;   ///< m, integral of the velocity over the current span so far
-  double sum_time = 0;                ///< s, of that integral
+  std::vector<double> contact_force;   ///< N, of this window
+  std::vector<double> fluid_force;     ///< N, of this window
+  std::vector<double> fluid_impulse;   ///< N s, given by the fluid and not yet handed on
+  std::vector<double> start_force;     ///< N, of the fluid at time 0; empty once the fluid's answers have come
+  std::vector<double> expected_force;  ///< N, forecast of the fluid for the next span
+  std::vector<double> span_force;      ///< N, what the fluid's load of this span starts from
+  std::vector<double> impedance;       ///< [nv][6] kg/s: xx, yy, zz, xy, yz, zx; resistance of the fluid to a vertex
+  std::vector<double> seen_velocity;   ///< m/s, mean over the span that the fluid answered last
+  std::vector<double> velocity_sum;    ///< m, integral of the velocity over the current span so far
+  double sum_time = 0;                 ///< s, of that integral
 
   /// Mean velocity over the current span so far, [nv][3] m/s.
   std::vector<double> mean_velocity() const;
@@ -48,8 +50,8 @@ struct SolidSide {
 
   POLYNYA_STATE_WITHOUT((ready_time), name, body, stable_step, can_subdivide, can_checkpoint, ready_time, new_threads,
                         account, ids, masses, radii, volumes, triangles, positions, velocities, topology_changed,
-                        contact_force, fluid_force, fluid_impulse, start_force, impedance, seen_velocity, velocity_sum,
-                        sum_time)
+                        contact_force, fluid_force, fluid_impulse, start_force, expected_force, span_force, impedance,
+                        seen_velocity, velocity_sum, sum_time)
 };
 
 void read_ready(SolidSide& side, const exchange::Message& ready);

@@ -67,8 +67,8 @@ LightestWall lightest_wall(const Conversation& conversation, const geometry::Cut
     }
     for (std::size_t e = 0; e < cut.cell.size(); ++e) {
       if (area[e] <= 0.1 * smallest_face(grid, cut.cell[e]) || on_outer_side(grid, cut.cell[e])) continue;
-      const double areal = mass[e] / area[e], bound = lag_factor(side.body) * areal;
-      if (bound < lightest.bound) lightest = {bound, areal, cut.cell[e], side.body};
+      const double areal = mass[e] / area[e];
+      if (areal < lightest.areal_mass) lightest = {areal, cut.cell[e], side.body};
     }
   }
   return lightest;
@@ -76,7 +76,8 @@ LightestWall lightest_wall(const Conversation& conversation, const geometry::Cut
 
 double lag_limit(const LightestWall& wall, const scene::Scene& scene) {
   const scene::MaterialCard& water = scene.material(scene.fluid->water);
-  return wall.bound / (water.value("density") * scene::sound_speed(water, scene.fluid->atmospheric_pressure));
+  return lag_factor * wall.areal_mass /
+         (water.value("density") * scene::sound_speed(water, scene.fluid->atmospheric_pressure));
 }
 
 }  // namespace polynya::coupler

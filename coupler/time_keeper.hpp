@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <limits>
 
 namespace polynya::coupler {
 
@@ -10,8 +11,9 @@ struct StepLimits {
   double solid_factor = 0.9;  ///< fraction of it that is used
   double fluid_stable = 0;    ///< s; 0 when there is no fluid
   double fluid_factor = 1;
-  double lag_limit = 0;     ///< s, bound of the span from the fluid load's lag; 0 when there is no fluid
-  double longest_span = 0;  ///< s, bound of a span without fluid
+  double lag_limit = std::numeric_limits<double>::infinity();  ///< s, bound of the span from the lag of loads that no
+                                                               ///< forecast precedes
+  double longest_span = 0;                                     ///< s, bound of a span without fluid
 };
 
 /// Time of the coupled run.
@@ -31,13 +33,17 @@ struct TimeKeeper {
 };
 
 /// Length of the span and number of windows in it, from the limits. The span is the fluid's stable step, bounded by
-/// the lag of its loads; windows divide it evenly and never exceed the solids' stable step. While windows still grow
-/// towards that length (next_step) the span is shorter.
+/// the lag of its loads if it does not forecast them; windows divide it evenly and never exceed the solids' stable
+/// step. While windows still grow towards that length (next_step) the span is shorter.
 struct SpanPlan {
   double step = 0;
   long windows = 1;
 };
 SpanPlan plan_span(const StepLimits& limits);
+
+/// Bounds the next span of a run with fluid: a quarter of the fluid's stable step at first, so that the flow of the
+/// start fits the walls it has met after its first step, and a tenth more than the span before from then on.
+void limit_growth(StepLimits& limits, const SpanPlan* before);
 
 /// Next window inside a span: the planned step, shortened if the solids' stable step fell, growing by at most a tenth.
 double next_step(const StepLimits& limits, double planned, double step_before);

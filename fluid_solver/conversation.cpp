@@ -5,6 +5,7 @@
 #include "core/compute/threads.hpp"
 #include "core/exchange/errors.hpp"
 #include "fluid_solver/overlap_message.hpp"
+#include "fluid_solver/wall_forecast.hpp"
 
 namespace polynya::fluid {
 namespace {
@@ -17,6 +18,7 @@ exchange::Message make_ready(const Fluid& fluid) {
   exchange::Message ready("ready");
   ready.header["role"] = "fluid";
   ready.header["can_checkpoint"] = true;
+  ready.header["forecasts"] = true;
   ready.header["time"] = fluid.time;
   ready.header["stable_step"] = stable_step(fluid);
   ready.header["account"] = account_names();
@@ -58,21 +60,20 @@ void start(const scene::Scene& scene, Fluid& fluid, const Overlap& overlap) {
                fluid.account.mass[water], fluid.account.mass[air], stable_step(fluid), fluid.groups.count());
 }
 
-/// A wall that moves in a fluid which cavitates meets no resistance.
-void add_impulse_and_impedance(exchange::Message& message, const Fluid& fluid, const Overlap& overlap) {
-  std::vector<double> impedance, impulse;
-  impedance.reserve(overlap.walled.size());
+void add_impulse_and_forecast(exchange::Message& message, Fluid& fluid, const Overlap& overlap, double dt) {
+  std::vector<double> impulse;
   impulse.reserve(6 * overlap.walled.size());
   std::size_t piece = 0;
   for (const std::int64_t number : overlap.walled) {
     const std::ptrdiff_t cell = fluid.grid.from_message(number);
     while (fluid.after.walls[piece].cell != cell) ++piece;  // both ascend, and cells without wall have a piece as well
-    impedance.push_back(fluid.bulk_modulus[cell] > 0 ? fluid.density[cell] * fluid.sound_speed[cell] : 0.0);
     for (const auto& body : fluid.wall_impulse[piece]) impulse.insert(impulse.end(), body.begin(), body.end());
   }
-  const std::int64_t count = rows(impedance.size());
-  message.add<double>("pressure.impedance", {count}, std::move(impedance));
+  const std::int64_t count = rows(overlap.walled.size());
   message.add<double>("pressure.impulse", {count, 2, 3}, std::move(impulse));
+  WallForecast forecast = forecast_walls(fluid, overlap.walled, dt);
+  message.add<double>("pressure.forecast", {count}, std::move(forecast.pressure));
+  message.add<double>("pressure.impedance", {count}, std::move(forecast.impedance));
 }
 
 double positive_span(const exchange::Message& message, double time) {
@@ -147,7 +148,7 @@ void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant&
       exchange::Message answer = make_pressure(fluid, next);
       answer.header["span"] = span.header.value("span", 0L);
       add_pressure(answer, fluid, overlap, "pressure.previous_");
-      add_impulse_and_impedance(answer, fluid, next);
+      add_impulse_and_forecast(answer, fluid, next, dt);
       coupler.send(std::move(answer));
       overlap = std::move(next);
     }

@@ -69,13 +69,15 @@ void CutGeometry::set(const Grid& grid, const std::array<Boundary, 6>& boundary,
     const double free = room - debris;
     volume[c] = free < void_fraction * full ? 0.0 : free;
     cells_.push_back(c);
-    WallPiece piece{.cell = c, .debris = debris, .area = {}, .velocity = {}};
+    WallPiece piece{.cell = c, .debris = debris, .area = {}, .velocity = {}, .size = 0};
     for (int body = 0; body < 2; ++body) {
       for (int axis = 0; axis < 3; ++axis) {
         piece.area[body][axis] = overlap.wall_area[6 * m + 3 * body + axis];
         piece.velocity[body][axis] = overlap.wall_velocity[6 * m + 3 * body + axis];
       }
     }
+    for (const auto& [x, y, z] : piece.area) piece.size += std::hypot(x, y, z);
+    if (!overlap.wall_size.empty()) piece.size = overlap.wall_size[m];
     walls.push_back(piece);
   }
   const auto in_order = [](const WallPiece& a, const WallPiece& b) { return a.cell < b.cell; };

@@ -16,6 +16,7 @@ struct WallPiece {
   double debris = 0;                                ///< displaced by particles, m^3
   std::array<std::array<double, 3>, 2> area{};      ///< per body, into the body, m^2
   std::array<std::array<double, 3>, 2> velocity{};  ///< m/s
+  double size = 0;                                  ///< m^2 of both bodies' wall, whichever way it faces
 };
 
 /// What the solids leave to the fluid at one time: free volume of cells, open fraction of faces, and the free fraction

@@ -3,60 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fluid_solver/group_strain.hpp"
 #include "fluid_solver/phases.hpp"
+#include "fluid_solver/prediction.hpp"
 #include "fluid_solver/pressure_equilibrium.hpp"
 
 namespace polynya::fluid {
 namespace {
 
-constexpr double prediction = 0.6;  ///< theta
-constexpr double quadratic_viscosity = 1.5;
-
-struct Range {
-  const Groups::Member *first, *last;
-  const Groups::Member* begin() const { return first; }
-  const Groups::Member* end() const { return last; }
-};
-
-Range members_of(const Groups& groups, std::size_t g) {
-  return {groups.members.data() + groups.first[g], groups.members.data() + groups.first[g + 1]};
-}
-
-/// Index of the member that is the cell `parent`, which stands before `child`.
-std::size_t position_of(const Range& range, std::ptrdiff_t parent, std::size_t child) {
-  while (range.first[child].cell != parent) --child;
-  return child;
-}
-
 double height_of(const Grid& grid, std::ptrdiff_t cell) {
   return grid.centre_z(static_cast<int>(cell / grid.sz));
 }
 
-/// The part of its own change of volume that a member keeps: all of it from half full on, none where it is empty.
-double kept_share(const Grid& grid, std::ptrdiff_t cell, double volume) {
-  return std::min(1.0, volume / (0.5 * grid.cell_volume[cell]));
-}
-
-/// Rate of strain of every member. A member is strained by its own rate of volume, but one under half full hands the
-/// rest of it on to its parent, the fuller one: so it is no stiffer than a half-full cell, and a cell that joins or
-/// leaves a group feels no jolt. What the root cannot keep strains the whole group.
-void member_strains(const Fluid& fluid, std::size_t g, double group_volume, std::vector<double>& strain) {
-  const Range range = members_of(fluid.groups, g);
-  const std::size_t count = static_cast<std::size_t>(range.last - range.first);
-  strain.assign(count, 0.0);
-  double common = 0;
-  for (std::size_t m = count; m-- > 0;) {
-    const auto& [c, parent] = range.first[m];
-    const double volume = fluid.before.volume[c], rate = strain[m] + fluid.rate[c];
-    const double kept = kept_share(fluid.grid, c, volume) * rate;
-    strain[m] = volume > 0 ? kept / volume : 0.0;
-    if (m == 0)
-      common = rate - kept;
-    else
-      strain[position_of(range, parent, m)] += rate - kept;
-  }
-  // A member without volume has nothing to be strained, the group holds half a cell at least.
-  for (double& one : strain) one += group_volume > 0 ? common / group_volume : 0.0;
+void member_strains(const Fluid& fluid, std::size_t g, std::vector<double>& strain) {
+  member_strains(
+      fluid, g, fluid.before.volume, [&](std::ptrdiff_t c) { return fluid.rate[c]; }, strain);
 }
 
 /// Water bears differences of pressure inside a group, and a member may cavitate beside one that does not.
@@ -146,7 +107,7 @@ void predict_group_pressure(Fluid& fluid, double dt) {
   std::vector<double> strains;
   for (std::size_t g = 0; g < fluid.groups.count(); ++g) {
     const GroupState& state = fluid.group_states[g];
-    member_strains(fluid, g, state.volume, strains);
+    member_strains(fluid, g, strains);
     const double* strain_of = strains.data();
     const double floor = std::max(state.content.mass[0] > 0 ? fluid.setup.pressure_floor[0] : -1e300,
                                   state.content.mass[1] > 0 ? fluid.setup.pressure_floor[1] : -1e300);
@@ -157,7 +118,7 @@ void predict_group_pressure(Fluid& fluid, double dt) {
       const double length = std::min({grid.dx[i], grid.dy[j], grid.dz[k]}), closing = std::max(0.0, -strain);
       const double q = fluid.density[c] * length * closing *
                        (quadratic_viscosity * length * closing + linear * fluid.sound_speed[c]);
-      const double ahead = fluid.pressure[c] - fluid.bulk_modulus[c] * dt * prediction * strain;
+      const double ahead = fluid.pressure[c] - fluid.bulk_modulus[c] * dt * group_prediction * strain;
       fluid.predicted_pressure[c] = std::max(ahead, floor) + q;
       fluid.viscosity[c] = 0;
     }
@@ -177,7 +138,7 @@ void set_group_donors(Fluid& fluid, double dt) {
         volume_shares(fluid.setup.law, fluid.setup.pressure_floor, state.content, change);
     const double volume = state.volume + change, inverse = volume > 0 ? 1.0 / volume : 0.0;
     if (bears_differences(state)) {
-      member_strains(fluid, g, state.volume, strains);
+      member_strains(fluid, g, strains);
       double* compression = fluid.own_compression.data() + fluid.groups.first[g];
       // A member that is nearly void thins out as densities do, so that it does not come to less than nothing.
       for (const double strain : strains) {
@@ -211,7 +172,7 @@ namespace {
 /// The emptier a cell under half full, the more of that is evened out: all of it in an empty cell, nothing in a
 /// half-full one, which would be a cell of its own. So cells join and leave groups without a jolt.
 std::vector<double> mass_shares(const Fluid& fluid, std::size_t g) {
-  const Range range = members_of(fluid.groups, g);
+  const MembersOfGroup range = members_of(fluid.groups, g);
   const double* compression = fluid.own_compression.data() + fluid.groups.first[g];
   std::vector<double> share;
   double sum = 0;
@@ -244,7 +205,7 @@ void mix_groups(Fluid& fluid) {
       continue;
     }
     // From the leaves to the root: what a cell has too much goes through the face to its parent.
-    const Range range = members_of(fluid.groups, g);
+    const MembersOfGroup range = members_of(fluid.groups, g);
     const std::vector<double> share = mass_shares(fluid, g);
     std::vector<double> surplus(share.size());
     for (std::size_t m = 0; m < surplus.size(); ++m) {

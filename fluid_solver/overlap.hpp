@@ -18,8 +18,9 @@ struct Overlap {
   std::vector<std::int64_t> walled;               ///< the cells that hold wall, ascending
   std::vector<double> wall_area;                  ///< [m][2][3] area vector of each body, pointing into the body, m^2
   std::vector<double> wall_velocity;              ///< [m][2][3] mean velocity of that piece of wall, m/s
+  std::vector<double> wall_size;  ///< [m] m^2 of wall whichever way it faces; empty: the lengths of wall_area
 
-  POLYNYA_STATE(cell, solid_volume, debris_volume, face, face_solid, walled, wall_area, wall_velocity)
+  POLYNYA_STATE(cell, solid_volume, debris_volume, face, face_solid, walled, wall_area, wall_velocity, wall_size)
 };
 
 }  // namespace polynya::fluid

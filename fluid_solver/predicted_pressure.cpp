@@ -8,14 +8,15 @@
 #include <cmath>
 
 #include "fluid_solver/phases.hpp"
+#include "fluid_solver/prediction.hpp"
 #include "fluid_solver/row_geometry.hpp"
 
 namespace polynya::fluid {
 namespace {
 
-constexpr double least_linear_viscosity = 0.06, quadratic_viscosity = 1.5;  ///< of the reference
-constexpr double limited_linear_viscosity = 0.2;                            ///< where the strain is not smooth
-constexpr double excess_prediction = 0.35;                                  ///< theta less a half
+constexpr double least_linear_viscosity = 0.06;   ///< of the reference
+constexpr double limited_linear_viscosity = 0.2;  ///< where the strain is not smooth
+constexpr double excess_prediction = whole_cell_prediction - 0.5;
 
 /// The part of a strain that those of the two neighbours do not explain; has the sign of the strain.
 inline double unexplained(double before, double own, double after) {

@@ -17,7 +17,6 @@ namespace {
 
 using std::numbers::pi;
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double lag_factor = 0.5;  // of areal mass / (density * sound speed): beyond it a lagged fluid load grows
 
 double modelled_fraction(Symmetry symmetry) {
   return symmetry == Symmetry::full ? 1 : symmetry == Symmetry::half ? 0.5 : 0.25;
@@ -59,22 +58,6 @@ void add_ice(const Scene& scene, Estimate& e) {
   e.ice_step = scene.run.step_factor * size / sound_speed(scene.material(scene.ice->material));
 }
 
-/// Longest hold of a fluid load that light surface layers stand: half the areal mass of a layer of nodes over rho c.
-double lag_bound(const Scene& scene, double layer_of_ice) {
-  const auto& water = scene.material(scene.fluid->water);
-  const double impedance = water.value("density") * sound_speed(water);
-  double bound = never;
-  const auto tighten = [&](const std::string& material, double thickness) {
-    bound = std::min(bound, lag_factor * 0.5 * thickness * scene.material(material).value("density") / impedance);
-  };
-  if (scene.ice) tighten(scene.ice->material, layer_of_ice);
-  if (scene.vehicle && scene.vehicle->deformable) {
-    const bool hollow = scene.vehicle->interior == "hollow";
-    tighten(scene.vehicle->material, hollow ? wall_of(scene) : scene.resolution.vehicle_element);
-  }
-  return bound;
-}
-
 void add_fluid(const Scene& scene, Estimate& e) {
   const GridLines lines = fluid_grid_lines(scene);
   e.cells = lines.cells();
@@ -95,8 +78,7 @@ void add_fluid(const Scene& scene, Estimate& e) {
                                    sound_speed(scene.material(f.air), f.atmospheric_pressure));
     return;
   }
-  const double layer = scene.ice ? smallest(ice_grid_lines(scene).z) : 0;
-  e.fluid_span = std::min(cell / sound_speed(scene.material(scene.fluid->water)), lag_bound(scene, layer));
+  e.fluid_span = cell / sound_speed(scene.material(scene.fluid->water));
 }
 
 /// Triangles of the surfaces that the coupler cuts: the hull and both faces of the ice.
@@ -121,12 +103,10 @@ void add_steps(const Scene& scene, Estimate& e) {
   const double end = scene.run.end_time;
   if (e.fluid_span > 0) {
     // A span is a whole number of windows, at least one.
-    e.fluid_span = std::isfinite(window)
-                       ? std::max(1.0, std::floor(e.fluid_span / window)) * std::min(window, e.fluid_span)
-                       : e.fluid_span;
+    window = e.fluid_span / std::ceil(std::max(e.fluid_span / window, 1e-9));
     e.fluid_steps = std::ceil(end / e.fluid_span);
   }
-  e.windows = std::ceil(end / std::min(window, e.fluid_span > 0 ? e.fluid_span : never));
+  e.windows = std::ceil(end / window);
   e.frames = std::floor(end / scene.run.frame_interval + 1e-9) + 1;
 }
 

@@ -66,7 +66,8 @@ def overlap(lines: list[numpy.ndarray], box: Box, speed: float) -> dict[str, num
     velocities[:, 0, 2] = speed
     arrays = {"cell": cells.astype("i8"), "solid_volume": volume.ravel()[cells],
               "debris_volume": numpy.zeros(len(cells)), "cell.full": runs(full), "wall": walls.astype("i8"),
-              "wall_area": areas_of_walls, "wall_velocity": velocities}
+              "wall_area": areas_of_walls, "wall_velocity": velocities,
+              "wall_size": numpy.abs(wall).sum(axis=-1).ravel()[walls]}
     for axis, name in enumerate(("face_x", "face_y", "face_z")):
         solid = faces[axis].ravel()
         index = numpy.flatnonzero((solid > 0) & (solid < 1))

@@ -31,6 +31,7 @@ class Fluid:
         if role != "fluid":
             raise Breach(SECTION, f"'ready': the field 'role' is '{role}', it must be 'fluid'")
         self.stable = greeting.stable_step(ready, SECTION)
+        self.forecasts = ready.header.get("forecasts", False) is True
         self.account = Account(ready, self.findings)
         self.lines = [ready.array(SECTION, f"grid.{axis}", "f8", (None,)) for axis in "xyz"]
         for axis, line in zip("xyz", self.lines):
@@ -54,8 +55,8 @@ class Fluid:
         expected = {"pressure.values": len(self.walls), "pressure.gradient_z": len(self.walls)}
         if not first:
             expected |= dict.fromkeys(("pressure.previous_values", "pressure.previous_gradient_z"), self.walls_before)
-        if "pressure.impedance" in message.arrays:
-            expected["pressure.impedance"] = len(self.walls)
+        if self.forecasts and not first:
+            expected |= dict.fromkeys(("pressure.forecast", "pressure.impedance"), len(self.walls))
         for name, count in expected.items():
             message.array(SECTION, name, "f8", (count,))
             check_finite(message, SECTION, name, self.findings)

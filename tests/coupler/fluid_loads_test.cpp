@@ -99,7 +99,7 @@ TEST(FluidLoads, OfPressuresAreTheMeanForceOfBothCutsTimesTheSpan) {
   RisingCube rising;
   ASSERT_EQ(rising.overlap->walls(), 125U - 27U);  // all cells with solid but those wholly inside
   const Pressures at_start(rising.overlap->walls_before(), 1e5), at_end(rising.overlap->walls(), 3e5);
-  rising.overlap->take(rising.conversation, {at_start.view(), at_end.view(), {}, {}}, span, rising.ledger);
+  rising.overlap->take(rising.conversation, {at_start.view(), at_end.view(), {}, {}, {}}, span, rising.ledger);
 
   std::vector<double> expected(24, 0.0);
   double weight = 0;
@@ -125,7 +125,7 @@ TEST(FluidLoads, OfPressuresAreTheMeanForceOfBothCutsTimesTheSpan) {
 TEST(FluidLoads, OfAUniformPressureDoNotMoveAClosedBody) {
   RisingCube rising;
   const std::vector<double> value(rising.overlap->walls(), 1e6), none(rising.overlap->walls(), 0.0);
-  rising.overlap->take(rising.conversation, {{value, none}, {value, none}, {}, {}}, span, rising.ledger);
+  rising.overlap->take(rising.conversation, {{value, none}, {value, none}, {}, {}, {}}, span, rising.ledger);
   for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(rising.total(axis), 0, 1e-13);
 }
 
@@ -137,7 +137,7 @@ TEST(FluidLoads, WhatWallsCarryArrivesWhole) {
   std::array<double, 3> given{};
   for (std::size_t w = 0; w < walls; ++w)
     for (std::size_t d = 0; d < 3; ++d) given[d] += impulse[6 * w + d] = static_cast<double>(w + d) * 1e-3;
-  rising.overlap->take(rising.conversation, {{none, none}, {none, none}, impulse, {}}, span, rising.ledger);
+  rising.overlap->take(rising.conversation, {{none, none}, {none, none}, impulse, {}, {}}, span, rising.ledger);
   for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(rising.total(axis), given[axis], 1e-11);
   EXPECT_NEAR(rising.ledger.fluid_carried[vehicle], given[2], 1e-11);
 }
@@ -146,7 +146,7 @@ TEST(FluidLoads, ImpedanceOfACubeResistsMotionAlongEachAxisWithTwoOfItsSides) {
   RisingCube rising;
   const std::size_t walls = rising.overlap->walls();
   const std::vector<double> none(walls, 0.0), impedance(walls, 1.5e6);  // kg/(m^2 s), water
-  rising.overlap->take(rising.conversation, {{none, none}, {none, none}, {}, impedance}, span, rising.ledger);
+  rising.overlap->take(rising.conversation, {{none, none}, {none, none}, {}, none, impedance}, span, rising.ledger);
   std::array<double, 6> sum{};
   for (std::size_t v = 0; v < 8; ++v)
     for (std::size_t c = 0; c < 6; ++c) sum[c] += rising.cube().impedance[6 * v + c];
@@ -159,7 +159,7 @@ TEST(FluidLoads, AnswersForAnotherNumberOfWallsAreRefused) {
   for (const std::string prefix : {"pressure.", "pressure.previous_"})
     for (const std::string name : {"values", "gradient_z"})
       answer.add<double>(prefix + name, {98}, std::vector<double>(98, 0.0));
-  EXPECT_NO_THROW(coupler::read_answer(answer, 98, 98));
-  EXPECT_THROW(coupler::read_answer(answer, 97, 98), exchange::ProtocolError);
-  EXPECT_THROW(coupler::read_answer(answer, 98, 99), exchange::ProtocolError);
+  EXPECT_NO_THROW(coupler::read_answer(answer, 98, 98, false));
+  EXPECT_THROW(coupler::read_answer(answer, 97, 98, false), exchange::ProtocolError);
+  EXPECT_THROW(coupler::read_answer(answer, 98, 99, false), exchange::ProtocolError);
 }

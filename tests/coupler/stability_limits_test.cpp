@@ -15,7 +15,7 @@ double limit(const scene::MaterialCard& card) {
   scene.fluid->atmospheric_pressure = 1e5;
   scene.materials["water"] = card;
   coupler::LightestWall wall;
-  wall.bound = 0.7 * 3;
+  wall.areal_mass = 3;
   return coupler::lag_limit(wall, scene);
 }
 

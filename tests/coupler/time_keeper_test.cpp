@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace polynya::coupler;
 
 TEST(TimeKeeper, SpanIsWholeWindowsWithinEveryLimit) {
@@ -29,6 +31,28 @@ TEST(TimeKeeper, FluidFasterThanTheSolidsShortensTheWindow) {
   const SpanPlan plan = plan_span(limits);
   EXPECT_EQ(plan.windows, 1);
   EXPECT_DOUBLE_EQ(plan.step, 1e-7);
+}
+
+TEST(TimeKeeper, SpansOfAFluidStartShortAndGrowByATenth) {
+  StepLimits limits{.solid_stable = 1e-8,
+                    .solid_factor = 1,
+                    .fluid_stable = 4e-7,
+                    .fluid_factor = 1,
+                    .lag_limit = 1,
+                    .longest_span = 0};
+  limit_growth(limits, nullptr);
+  SpanPlan plan = plan_span(limits);
+  EXPECT_NEAR(plan.step * plan.windows, 1e-7, 1e-20);
+  for (int span = 1; span < 14; ++span) {
+    limit_growth(limits, &plan);
+    plan = plan_span(limits);
+    EXPECT_NEAR(plan.step * plan.windows, 1e-7 * std::pow(1.1, span), 1e-19);
+  }
+  for (int span = 14; span < 20; ++span) {
+    limit_growth(limits, &plan);
+    plan = plan_span(limits);
+  }
+  EXPECT_NEAR(plan.step * plan.windows, 4e-7, 1e-20);
 }
 
 TEST(TimeKeeper, WindowFallsAtOnceAndGrowsSlowly) {

@@ -123,7 +123,7 @@ class WithoutIce(unittest.TestCase):
     def test_start_transient_stays_below_the_stagnation_pressure_in_every_cell_of_the_wall(self):
         # Until a stress wave has run along the hull and back: what the start sends out, in water and hull, has passed.
         start = [p for t, p in zip(self.columns["time"], self.columns["wall_pressure"]) if t < 2 * 0.100 / 5052]
-        self.assertGreater(len(start), 100)
+        self.assertGreater(len(start), 50)
         self.assertLess(max(start), 1.2 * stagnation_pressure)
         self.assertGreater(max(start), 0.5 * stagnation_pressure)
 

@@ -29,6 +29,7 @@ exchange::Message overlap(const Integers& runs = {2, 4}, const Integers& wall = 
   message.add<std::int64_t>("wall", {rows(wall)}, wall);
   message.add<double>("wall_area", {rows(wall), 2, 3}, Numbers(6 * wall.size(), 0.5));
   message.add<double>("wall_velocity", {rows(wall), 2, 3}, Numbers(6 * wall.size(), 7.0));
+  message.add<double>("wall_size", {rows(wall)}, Numbers(wall.size(), 3.0));
   for (const std::string name : {"face_x", "face_y", "face_z"}) {
     message.add<std::int64_t>(name, {2}, faces);
     message.add<double>(name + ".solid", {2}, Numbers{0.3, 0.4});
@@ -63,6 +64,7 @@ TEST(FluidOverlapMessage, OnlyTheCellsNamedHaveWall) {
     EXPECT_EQ(read.wall_area[at], at < 30 ? 0.0 : 0.5);
     EXPECT_EQ(read.wall_velocity[at], at < 30 ? 0.0 : 7.0);
   }
+  EXPECT_EQ(read.wall_size, (Numbers{0, 0, 0, 0, 0, 3}));
 }
 
 TEST(FluidOverlapMessage, RunsOfFacesAreClosed) {
