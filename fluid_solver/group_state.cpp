@@ -230,4 +230,31 @@ void mix_groups(Fluid& fluid) {
   }
 }
 
+void pressures_after_step(const Fluid& fluid, std::size_t g, double dt, std::vector<double>& pressure) {
+  const MembersOfGroup range = members_of(fluid.groups, g);
+  const GroupState& state = fluid.group_states[g];
+  const double* compression = fluid.own_compression.data() + fluid.groups.first[g];
+  const double rho = (state.content.mass[0] + state.content.mass[1]) / std::max(state.volume, 1e-300);
+  const bool differs = bears_differences(state) && !cavitates(state);
+  std::vector<double> own, strains;
+  double change = 0, volume = 0, mean = 0;
+  for (const auto& [c, parent] : range) {
+    const double after = fluid.after.volume[c];
+    own.push_back(differs ? kept_share(fluid.grid, c, after) * *compression++ : 0.0);
+    change += dt * fluid.rate[c];
+    volume += after;
+    mean += after * own.back();
+  }
+  member_strains(fluid, g, strains);
+  pressure.clear();
+  for (std::size_t m = 0; m < own.size(); ++m) {
+    const std::ptrdiff_t c = range.first[m].cell;
+    const double bulk = fluid.bulk_modulus[c], strain = differs ? change / state.volume : dt * strains[m];
+    const double before =
+        differs ? state.point.pressure + rho * fluid.setup.gravity * (state.height - height_of(fluid.grid, c))
+                : fluid.pressure[c];
+    pressure.push_back(before - bulk * strain + bulk * (own[m] - (volume > 0 ? mean / volume : 0.0)));
+  }
+}
+
 }  // namespace polynya::fluid

@@ -14,6 +14,8 @@ void evaluate_groups(Fluid& fluid);
 void predict_group_pressure(Fluid& fluid, double dt);
 /// Takes the donor values of member cells from their group.
 void set_group_donors(Fluid& fluid, double dt);
+/// After a step of length dt: absolute pressures of the members of group g at its end, Pa, linear in what happened.
+void pressures_after_step(const Fluid& fluid, std::size_t g, double dt, std::vector<double>& pressure);
 /// Spreads each group's content evenly over its new volume; the mass moved is added to the face masses.
 void mix_groups(Fluid& fluid);
 

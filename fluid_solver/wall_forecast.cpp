@@ -9,12 +9,12 @@
 namespace polynya::fluid {
 namespace {
 
-/// Of a cell: what happened to it in the step that ended, and what the next one brings.
+/// Of a cell: what the step has left, and what the next one brings.
 struct Motion {
-  double strain_before = 0;  ///< 1/s, in the step that ended
-  double strain = 0;         ///< 1/s, in the next one
-  double per_speed = 0;      ///< 1/m, closing strain per speed of the walls into the fluid
-  double theta = 0;          ///< see prediction.hpp
+  double pressure = 0;   ///< Pa, at the end of the step
+  double strain = 0;     ///< 1/s, in the next one
+  double per_speed = 0;  ///< 1/m, closing strain per speed of the walls into the fluid
+  double theta = 0;      ///< see prediction.hpp
 };
 
 struct Expected {
@@ -30,9 +30,9 @@ Expected expected_in(const Fluid& fluid, std::ptrdiff_t cell, const Motion& moti
   const double length = std::min({fluid.grid.dx[i], fluid.grid.dy[j], fluid.grid.dz[k]});
   const double stiffness = fluid.bulk_modulus[cell] * dt, closing = std::max(0.0, -motion.strain);
   const double viscous = fluid.density[cell] * length * linear_viscosity(fluid) * fluid.sound_speed[cell];
-  const double now = std::max(fluid.pressure[cell] - stiffness * motion.strain_before, floor);
   const double q = closing * (viscous + fluid.density[cell] * quadratic_viscosity * length * length * closing);
-  return {std::max(now - motion.theta * stiffness * motion.strain, floor) + q - fluid.setup.atmospheric_pressure,
+  return {std::max(std::max(motion.pressure, floor) - motion.theta * stiffness * motion.strain, floor) + q -
+              fluid.setup.atmospheric_pressure,
           (motion.theta * stiffness + viscous) * motion.per_speed};
 }
 
@@ -44,10 +44,11 @@ double wall_size(const Fluid& fluid, std::ptrdiff_t cell) {
 }
 
 /// A cell that is in no group is at least half full.
-Motion motion_of_cell(const Fluid& fluid, std::ptrdiff_t cell) {
+Motion motion_of_cell(const Fluid& fluid, std::ptrdiff_t cell, double dt) {
   const double least = 0.5 * fluid.grid.cell_volume[cell], rate = fluid.rate[cell];
   const double before = std::max(fluid.before.volume[cell], least), after = std::max(fluid.after.volume[cell], least);
-  return {rate / before, rate / after, wall_size(fluid, cell) / after, whole_cell_prediction};
+  return {fluid.pressure[cell] - fluid.bulk_modulus[cell] * dt * rate / before, rate / after,
+          wall_size(fluid, cell) / after, whole_cell_prediction};
 }
 
 /// Fills in the members of group g that hold wall: those with a number in `wall_of`.
@@ -58,14 +59,14 @@ void forecast_group(const Fluid& fluid, std::size_t g, const std::vector<std::in
   if (std::none_of(members.begin(), members.end(), holds_wall)) return;
   const auto rate = [&](std::ptrdiff_t c) { return fluid.rate[c]; };
   const auto size = [&](std::ptrdiff_t c) { return wall_size(fluid, c); };
-  std::vector<double> before, after, per_speed;
-  member_strains(fluid, g, fluid.before.volume, rate, before);
-  member_strains(fluid, g, fluid.after.volume, rate, after);
+  std::vector<double> pressure, strain, per_speed;
+  pressures_after_step(fluid, g, dt, pressure);
+  member_strains(fluid, g, fluid.after.volume, rate, strain);
   member_strains(fluid, g, fluid.after.volume, size, per_speed);
-  for (std::size_t m = 0; m < before.size(); ++m) {
+  for (std::size_t m = 0; m < strain.size(); ++m) {
     const std::ptrdiff_t cell = members.first[m].cell;
     if (wall_of[cell] < 0) continue;
-    const Expected expected = expected_in(fluid, cell, {before[m], after[m], per_speed[m], group_prediction}, dt);
+    const Expected expected = expected_in(fluid, cell, {pressure[m], strain[m], per_speed[m], group_prediction}, dt);
     forecast.pressure[static_cast<std::size_t>(wall_of[cell])] = expected.pressure;
     forecast.impedance[static_cast<std::size_t>(wall_of[cell])] = expected.impedance;
   }
@@ -80,7 +81,7 @@ WallForecast forecast_walls(Fluid& fluid, std::span<const std::int64_t> cells, d
   std::vector<std::int32_t>& wall_of = fluid.label;
   for (std::size_t w = 0; w < cells.size(); ++w) {
     const std::ptrdiff_t cell = fluid.grid.from_message(cells[w]);
-    const Expected expected = expected_in(fluid, cell, motion_of_cell(fluid, cell), dt);
+    const Expected expected = expected_in(fluid, cell, motion_of_cell(fluid, cell, dt), dt);
     forecast.pressure[w] = expected.pressure;
     forecast.impedance[w] = expected.impedance;
     wall_of[cell] = static_cast<std::int32_t>(w);

@@ -81,7 +81,9 @@ template <class L>
 double stable_step_of(const Particles& p, const L& law) {
   return compute::ordered_minimum(p.count(), chunk, 1e300, [&](std::size_t i) {
     PointState<double> state;
-    state.relative_volume = p.relative_volume[i];
+    // Rubble that has come apart bears no shear, though its law keeps the modulus: it is no stiffer than when it
+    // closes.
+    state.relative_volume = p.damage[i] >= 1 ? std::min(p.relative_volume[i], 1.0) : p.relative_volume[i];
     return 0.3 * p.points.smoothing_length[i] / (continuum::wave_speed(law, state) + p.approach_speed[i]);
   });
 }

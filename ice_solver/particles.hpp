@@ -43,7 +43,8 @@ void add_particle(Particles& particles, const continuum::Law& law, const Particl
 /// of its density at least.
 void update_particle_stress(Particles& particles, const continuum::Law& law, double dt);
 
-/// 0.3 h / (c + approach speed), the least of all particles; 1e300 if there is none.
+/// 0.3 h / (c + approach speed), the least of all particles; 1e300 if there is none. Loose rubble (fully damaged and
+/// expanded) counts with the wave speed that it has when it closes.
 double particle_stable_step(const Particles& particles, const continuum::Law& law);
 
 }  // namespace polynya::ice
