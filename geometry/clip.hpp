@@ -59,7 +59,6 @@ struct PieceRecord {
   std::array<double, 3> weights;      ///< barycentric coordinates of the centroid
   double x_extent = 0, x_moment = 0;  ///< of the cut along the cell's lower x-plane: integral of dy, of (z - z_k) dy
   double y_extent = 0, y_moment = 0;  ///< likewise along the lower y-plane: integral of dx, of (z - z_k) dx
-  std::int64_t entry = -1;            ///< where the cell went in the sorted output; -1: no wall of any cell
 };
 
 /// Cuts triangles and appends their records. Number is double, or one without rounding (exact_clip.cpp); then records

@@ -18,6 +18,7 @@ void ClippedChunk::clip(ClipTriangles method, const std::array<LineLocator, 3>& 
                         std::span<const std::int32_t> triangles, std::size_t begin, std::size_t end) {
   records.clear();
   method(lines, corners, triangles, begin, end, records);
+  entry.resize(records.size());
   const auto columns_x = static_cast<std::size_t>(lines[0].intervals()) + 1;
   const std::size_t columns = columns_x * (static_cast<std::size_t>(lines[1].intervals()) + 1);
   sort(static_cast<std::int32_t>(columns_x), (columns + column_chunk - 1) / column_chunk);

@@ -24,6 +24,7 @@ struct ClippedChunk {
     std::int32_t column, record;
   };
   std::vector<PieceRecord> records;  ///< in the order of the triangles
+  std::vector<std::int64_t> entry;   ///< [records], where the cell went in the sorted output; -1: no wall of any cell
   std::vector<InColumn> by_columns;  ///< by chunk of columns, there in the order of the triangles
   std::vector<std::int32_t> start;   ///< [chunks of columns + 1], in by_columns
 

@@ -61,7 +61,7 @@ class ColumnWalk {
   }
 
   /// The column's records of one body.
-  std::span<PieceRecord*> records(std::size_t body) const {
+  std::span<const PieceRecord*> records(std::size_t body) const {
     const std::int32_t* first = chunk_.first.data() + body * (column_chunk + 1) + local_;
     return {chunk_.record.data() + first[0], static_cast<std::size_t>(first[1] - first[0])};
   }
@@ -69,7 +69,7 @@ class ColumnWalk {
   bool gather() {
     highest_ = -1;
     for (std::size_t b = 0; b < bodies_.size(); ++b)
-      for (PieceRecord*& piece : records(b)) {
+      for (const PieceRecord*& piece : records(b)) {
         prefetch(static_cast<std::size_t>(&piece - chunk_.record.data()) + prefetch_ahead);
         add(*piece, b);
       }
@@ -81,7 +81,8 @@ class ColumnWalk {
     if (record >= chunk_.record.size()) return;
     const char* piece = reinterpret_cast<const char*>(chunk_.record[record]);
     __builtin_prefetch(piece);
-    __builtin_prefetch(piece + sizeof(PieceRecord) / 2);
+    __builtin_prefetch(piece + 64);
+    __builtin_prefetch(piece + sizeof(PieceRecord) - 1);
   }
 
   void clear_sums() {
@@ -146,6 +147,7 @@ class ColumnWalk {
     if (present > 1) chunk_.shared_cells += count;
     chunk_.row_of_k[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(chunk_.cells.size());
     chunk_.cells.place.push_back({i_, j_, k, count});
+    chunk_.cells.walled.push_back(0);
     if (total > 1.0 + 1e-9) chunk_.overlapping_cells += count;
   }
 
@@ -193,11 +195,13 @@ class ColumnWalk {
 
   void note_rows_of_records() {
     for (std::size_t b = 0; b < bodies_.size(); ++b)
-      for (PieceRecord*& piece : records(b)) {
+      for (const PieceRecord*& piece : records(b)) {
         const bool area = piece->area[0] != 0 || piece->area[1] != 0 || piece->area[2] != 0;
         const std::int32_t row = area && piece->k < top_ ? chunk_.row_of_k[static_cast<std::size_t>(piece->k)] : -1;
         chunk_.row[static_cast<std::size_t>(&piece - chunk_.record.data())] = row;
-        if (row >= 0) ++chunk_.pieces[b][static_cast<std::size_t>(piece->triangle) / triangle_chunk];
+        if (row < 0) continue;
+        chunk_.cells.walled[static_cast<std::size_t>(row)] = 1;
+        ++chunk_.pieces[b][static_cast<std::size_t>(piece->triangle) / triangle_chunk];
       }
   }
 
@@ -251,22 +255,25 @@ void take_records(std::span<std::vector<ClippedChunk>> clipped, std::size_t begi
     for (ClippedChunk& part : clipped[b])
       for (std::int32_t r = part.start[bucket]; r < part.start[bucket + 1]; ++r) {
         const ClippedChunk::InColumn& at = part.by_columns[static_cast<std::size_t>(r)];
-        action(static_cast<std::size_t>(at.column) - begin, part.records[static_cast<std::size_t>(at.record)]);
+        action(static_cast<std::size_t>(at.column) - begin, part, static_cast<std::size_t>(at.record));
       }
   };
   std::int32_t total = 0;
   for (std::size_t b = 0; b < clipped.size(); ++b) {
     chunk.pieces[b].assign(clipped[b].size(), 0);
     std::int32_t* first = chunk.first.data() + b * stride;
-    for_all(b, [&](std::size_t column, PieceRecord&) { ++first[column]; });
+    for_all(b, [&](std::size_t column, ClippedChunk&, std::size_t) { ++first[column]; });
     for (std::size_t c = 0; c < stride; ++c) total += std::exchange(first[c], total);
   }
   chunk.record.resize(static_cast<std::size_t>(total));
+  chunk.entry.resize(chunk.record.size());
   chunk.row.resize(chunk.record.size());
   for (std::size_t b = 0; b < clipped.size(); ++b) {
     std::int32_t* first = chunk.first.data() + b * stride;
-    for_all(b, [&](std::size_t column, PieceRecord& piece) {
-      chunk.record[static_cast<std::size_t>(first[column]++)] = &piece;
+    for_all(b, [&](std::size_t column, ClippedChunk& part, std::size_t record) {
+      const auto at = static_cast<std::size_t>(first[column]++);
+      chunk.record[at] = &part.records[record];
+      chunk.entry[at] = &part.entry[record];
     });
     for (std::size_t c = stride - 1; c > 0; --c) first[c] = first[c - 1];  // back from the ends to the beginnings
     first[0] = b == 0 ? 0 : first[-1];

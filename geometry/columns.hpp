@@ -25,11 +25,13 @@ struct Rows {
   std::vector<std::int32_t> order;     ///< rows by level, there in the order of the columns
   std::vector<std::int64_t> first;     ///< [levels], where the chunk's first place of a level goes in the sorted output
   std::vector<std::int64_t> position;  ///< [rows], where the first of the row went
+  std::vector<std::uint8_t> walled;    ///< [rows] of cells: 1 where there are pieces of wall
 
   std::size_t size() const { return place.size(); }
   void clear() {
     place.clear();
     values.clear();
+    walled.clear();
   }
   void sort(std::size_t levels);
 };
@@ -64,7 +66,8 @@ struct ColumnChunk {
   std::vector<std::pair<Place, std::int32_t>> uncertain;  ///< cells and bodies
   std::int64_t shared_cells = 0, overlapping_cells = 0;
   std::vector<std::int32_t> first;                ///< [bodies][column_chunk + 1], where the records of a column begin
-  std::vector<PieceRecord*> record;               ///< by body and column, in the order of the triangles
+  std::vector<const PieceRecord*> record;         ///< by body and column, in the order of the triangles
+  std::vector<std::int64_t*> entry;               ///< per record: ClippedChunk::entry
   std::vector<std::int32_t> row;                  ///< per record: row of its cell, -1: no wall of any cell
   std::vector<std::vector<std::int32_t>> pieces;  ///< [bodies][chunks of triangles], how many records have a row
   std::vector<CellSum> sums;                      ///< scratch [cells along z + 1][bodies]

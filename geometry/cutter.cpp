@@ -47,7 +47,7 @@ void scatter_cells(const GridLines& grid, Rows& rows, CutCells& out) {
       out.cell[at] = grid.cell_index(place.i, place.j, k);
       out.solid_volume[at] = std::clamp(total, 0.0, 1.0) * volume;
       out.debris_volume[at] = 0;
-      out.walled[at] = 0;
+      out.walled[at] = rows.walled[r];
       if (place.k == k) rows.position[r] = static_cast<std::int64_t>(at);
     }
   }
@@ -76,12 +76,10 @@ double height(const GridLines& grid, const BodySurface& surface, const PieceReco
   return height;
 }
 
-/// Tells the records where their cells went, and the cells that they have wall.
-void note_entries(ColumnChunk& chunk, CutCells& out) {
-  for (std::size_t r = 0; r < chunk.record.size(); ++r) {
-    chunk.record[r]->entry = chunk.row[r] < 0 ? -1 : chunk.cells.position[static_cast<std::size_t>(chunk.row[r])];
-    if (chunk.row[r] >= 0) out.walled[static_cast<std::size_t>(chunk.record[r]->entry)] = 1;
-  }
+/// Tells the records where their cells went.
+void note_entries(ColumnChunk& chunk) {
+  for (std::size_t r = 0; r < chunk.entry.size(); ++r)
+    *chunk.entry[r] = chunk.row[r] < 0 ? -1 : chunk.cells.position[static_cast<std::size_t>(chunk.row[r])];
 }
 
 void resize(CutCells& out, std::size_t entries) {
@@ -179,7 +177,7 @@ void Cutter::Workspace::collect(CutCells& out) {
     scatter_cells(grid, chunks[c].cells, out);
     for (std::size_t axis = 0; axis < 3; ++axis)
       scatter_faces(chunks[c].faces[axis], grid.cells(0) + (axis == 0), grid.cells(1) + (axis == 1), out.faces[axis]);
-    note_entries(chunks[c], out);
+    note_entries(chunks[c]);
   });
 }
 
@@ -204,10 +202,13 @@ void Cutter::Workspace::collect_pieces(std::span<const BodySurface> bodies, CutC
   compute::for_uneven_chunks(clips.size(), 1, [&](std::size_t at, std::size_t) {
     const auto [b, c] = clips[at];
     WallPiece* next = out.pieces.data() + piece_start[at];
-    for (const PieceRecord& piece : clipped[b][c].records)
-      if (piece.entry >= 0)
-        *next++ = {static_cast<std::int32_t>(b),  piece.triangle, piece.entry, piece.area, piece.weights,
-                   height(grid, bodies[b], piece)};
+    const ClippedChunk& from = clipped[b][c];
+    for (std::size_t r = 0; r < from.records.size(); ++r) {
+      if (from.entry[r] < 0) continue;
+      const PieceRecord& piece = from.records[r];
+      *next++ = {static_cast<std::int32_t>(b),  piece.triangle, from.entry[r], piece.area, piece.weights,
+                 height(grid, bodies[b], piece)};
+    }
   });
 }
 
