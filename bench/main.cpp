@@ -66,7 +66,7 @@ const Kernel kernels[] = {
     {"ice.hexahedron_jh2", hexahedron_jh2},
     {"ice.hexahedron_scaling", hexahedron_scaling},
     {"ice.particle", particle},
-    {"geometry.clip", clip},
+    {"geometry.clip, geometry.refit", clip},
     {"contact.evaluate", contact_evaluate},
     {"coupling.window", window},
     {"fluid.cell", fluid_step},
