@@ -27,6 +27,6 @@ TEST(WaterEntryFine, WedgeOf30DegreesAt100Cells) {
   expect_similarity(enter(at_30, 100, 0.04, POLYNYA_BINARY_DIR "/wedge_30.csv"));
 }
 
-TEST(WaterEntryFine, WedgeOf20DegreesAt240Cells) {
-  expect_similarity(enter(at_20, 240, 0.025, POLYNYA_BINARY_DIR "/wedge_20.csv"));
+TEST(WaterEntryFine, WedgeOf20DegreesAt100Cells) {
+  expect_similarity(enter(at_20, 100, 0.025, POLYNYA_BINARY_DIR "/wedge_20.csv"));
 }
