@@ -1,0 +1,86 @@
+#pragma once
+#include <cmath>
+#include <numbers>
+
+#include "tests/fluid_solver/slice_entry.hpp"
+
+/// A rigid wedge that falls into water: the fluid slows it, it moves the fluid. Its velocity follows from the impulse
+/// of the last step, which is short enough for that: the water that sound reaches in a step weighs a tenth of the
+/// wedge.
+namespace polynya::fluid::test {
+
+struct Reading {
+  double time, value;
+};
+
+/// Linear between readings.
+inline double read_at(const std::vector<Reading>& curve, double time) {
+  std::size_t n = 1;
+  while (n + 1 < curve.size() && curve[n].time < time) ++n;
+  const Reading &a = curve[n - 1], &b = curve[n];
+  return a.value + (b.value - a.value) * (time - a.time) / (b.time - a.time);
+}
+
+/// Boundary-element velocity (s, m/s) for the wedge of Yettou, Desrochers & Champoux 2006 as in Sun et al. 2015.
+inline const std::vector<Reading> wedge_velocity{
+    {0.00024, 5.045}, {0.00250, 4.956}, {0.00492, 4.680}, {0.00728, 4.359}, {0.00964, 4.020}, {0.01188, 3.654},
+    {0.01431, 3.360}, {0.01655, 3.120}, {0.01892, 2.870}, {0.02117, 2.683}, {0.02360, 2.487}, {0.02603, 2.372},
+    {0.02834, 2.194}, {0.03060, 2.114}, {0.03291, 1.945}, {0.03535, 1.883}, {0.03778, 1.776}, {0.04010, 1.759}};
+
+/// What falls: half a body, per length of the slice.
+struct Fall {
+  double mass, velocity;  ///< kg/m, m/s (down)
+  double depth = 0;       ///< m that it has fallen
+};
+
+/// One step of both.
+template <class BodyAt>
+void fall_on(Fluid& fluid, Fall& body, double gravity, BodyAt&& at) {
+  const double dt = 0.8 * stable_step(fluid), before = lift_impulse(fluid);
+  step(fluid, dt, overlap_of(fluid.grid, at(body.depth + dt * body.velocity), {0, -body.velocity}));
+  body.depth += dt * body.velocity;
+  body.velocity += dt * gravity - (lift_impulse(fluid) - before) / body.mass;
+}
+
+/// Largest difference of the velocity from the boundary elements', over that at the start; water inside the wedge over
+/// what it displaces.
+struct Fallen {
+  double velocity, inside;
+};
+
+/// 25 degrees, 1.2 m wide, 94 kg/m, 5.05 m/s, for 40 ms; `across`: cells over half the width. The tank is 5 m wide and
+/// 1.1 m deep.
+inline Fallen drop_wedge(int across, const std::string& field = {}) {
+  constexpr double gravity = 9.81;
+  const double half = 0.6, slope = std::tan(25 * std::numbers::pi / 180), height = half * slope, h = half / across;
+  const auto whole = [&](double length) { return h * std::ceil(length / h); };
+  polynya::fluid::Setup setup = slice_setup(344, true);
+  setup.gravity = gravity;
+  Fluid fluid{Grid(graded_line(0, 0, whole(0.62), 2.5, h, 1.1), {0, h},
+                   graded_line(-1.1, -whole(0.16), whole(0.3), 0.8, h, 1.1)),
+              setup};
+  const auto at = [&](double depth) {
+    const double apex = 0.01 * h - depth, edge = apex + height, top = edge + 0.25;
+    return Polygon{{0, apex}, {half, edge}, {half, top}, {-half, top}, {-half, edge}};
+  };
+  Fall wedge{47, 5.05};
+  fill_hydrostatic(fluid, overlap_of(fluid.grid, at(0), {0, -wedge.velocity}), 0.0);
+  double worst = 0, shown = 0;
+  while (fluid.time < 0.04) {
+    fall_on(fluid, wedge, gravity, at);
+    const double expected = read_at(wedge_velocity, fluid.time);
+    worst = std::max(worst, std::abs(wedge.velocity - expected) / wedge_velocity.front().value);
+    if (fluid.time < shown) continue;
+    std::printf("  %.1f ms: %.3f m/s, boundary elements %.3f\n", 1e3 * fluid.time, wedge.velocity, expected);
+    shown += 0.004;
+  }
+  if (!field.empty()) write_field(fluid, field);
+  const double displaced = fluid.grid.y[1] * 0.5 * wedge.depth * wedge.depth / slope;
+  const Fallen fallen{worst, water_inside(fluid) / displaced};
+  std::printf(
+      "dropped wedge, %d cells over half its width, %ld steps: velocity off by %.2f %% at most; water inside %.1e\n",
+      across, fluid.steps, 100 * fallen.velocity, fallen.inside);
+  return fallen;
+}
+
+}  // namespace polynya::fluid::test
