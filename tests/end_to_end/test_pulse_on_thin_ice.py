@@ -1,5 +1,5 @@
-"""Ice of one layer of elements, lighter than the water that moves with it, under an acoustic pulse: lagged loads of the
-water do not make it swing up."""
+"""Ice of one layer of elements, lighter than the water that moves with it, under an acoustic pulse: the water's
+loads do not make it swing up."""
 
 import json
 import unittest
