@@ -33,9 +33,9 @@ class PlateUnderWater(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = scratch()
-        cls.run = Path(cls.folder.name) / "run"
-        cls.summary = summary_of(polynya("run", "cases/plate_under_water", "--out", cls.run, "--json"))
-        cls.course = course(cls.run)
+        cls.run_folder = Path(cls.folder.name) / "run"
+        cls.summary = summary_of(polynya("run", "cases/plate_under_water", "--out", cls.run_folder, "--json"))
+        cls.course = course(cls.run_folder)
 
     @classmethod
     def tearDownClass(cls):
@@ -56,7 +56,7 @@ class PlateUnderWater(unittest.TestCase):
 
     def test_water_pushes_with_its_weight_and_nothing_is_lost(self):
         self.assertLess(self.summary["mass_error"], 1e-10)
-        ledger = series(self.run / "series" / "ledger.csv")
+        ledger = series(self.run_folder / "series" / "ledger.csv")
         time, given = ledger["time"], ledger["fluid_given_ice_z"]
         early = next(n for n, t in enumerate(time) if t > 0.8 * time[-1])
         force = (given[-1] - given[early]) / (time[-1] - time[early])  # on a quarter of the slice of 50 mm
