@@ -57,6 +57,7 @@ IceBody make_ice(const IceOptions& options) {
   ice.options = options;
   ice.solid = continuum::make_solid("ice", mesh_of(options), options.law, options.numerics);
   constrain_plate(ice.solid, options.planes, options.sides);
+  if (options.damping > 0) continuum::add_mass_damping(ice.solid, options.damping);
   if (options.held_rim > 0) hold_rim(ice.solid, options.planes, options.held_rim);
   if (options.ball)
     for (std::size_t n = 0; n < ice.solid.node_count(); ++n) ice.solid.velocities[3 * n + 2] = -options.ball->speed;

@@ -37,6 +37,7 @@ struct IceOptions {
   continuum::Numerics numerics;
   SymmetryPlanes planes;
   Sides sides = Sides::free;
+  double damping = 0;               ///< 1/s, of all motion: force over mass and velocity
   double held_rim = 0;              ///< m, width of the rim of the upper face that is held
   std::optional<BallOptions> ball;  ///< then the grid lines mean nothing
   bool conversion = true;

@@ -40,7 +40,9 @@ Sides sides_from_name(const std::string& name) {
   if (name == "non_reflecting") return Sides::non_reflecting;
   if (name == "free") return Sides::free;
   if (name == "clamped") return Sides::clamped;
-  throw std::invalid_argument("ice.sides is \"" + name + "\"; it must be non_reflecting, free or clamped");
+  if (name == "clamped_ends") return Sides::clamped_ends;
+  throw std::invalid_argument("ice.sides is \"" + name +
+                              "\"; it must be non_reflecting, free, clamped or clamped_ends");
 }
 
 continuum::HexMesh plate_mesh(const std::vector<double>& x, const std::vector<double>& y,
@@ -80,8 +82,9 @@ void constrain_plate(continuum::ExplicitSolid& plate, SymmetryPlanes planes, Sid
     if (sides == Sides::non_reflecting) {
       continuum::add_non_reflecting_boundary(plate, plane);
     } else {
+      const std::uint8_t components = sides == Sides::clamped_ends && plane.normal[1] != 0 ? 2 : 7;
       for (std::int32_t node : continuum::nodes_on_plane(plate.mesh, plane, tolerance))
-        plate.fixed[static_cast<std::size_t>(node)] = 7;
+        plate.fixed[static_cast<std::size_t>(node)] |= components;
     }
   }
 }

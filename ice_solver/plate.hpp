@@ -8,9 +8,10 @@
 namespace polynya::ice {
 
 /// What happens on the outer lateral faces: waves leave, nothing holds them, or they are held in place.
-enum class Sides { non_reflecting, free, clamped };
+/// clamped_ends: those across x are held, those across y slide in their planes, so that nothing depends on y.
+enum class Sides { non_reflecting, free, clamped, clamped_ends };
 
-/// "non_reflecting", "free" or "clamped". Throws std::invalid_argument naming the alternatives.
+/// "non_reflecting", "free", "clamped" or "clamped_ends". Throws std::invalid_argument naming the alternatives.
 Sides sides_from_name(const std::string& name);
 
 /// Hexahedra between grid lines (m, ascending). Nodes and elements are numbered along z first, then x, then y, so that

@@ -43,6 +43,7 @@ IceOptions options_from_scene(const scene::Scene& scene) {
   options.planes.x = scene.symmetry == scene::Symmetry::quarter;
   options.planes.y = scene.symmetry != scene::Symmetry::full;
   options.sides = ice.bending ? Sides::free : sides_from_name(ice.sides);
+  options.damping = ice.damping;
   options.held_rim = ice.held_rim;
   if (ice.ball) {
     options.sides = Sides::free;

@@ -155,6 +155,9 @@ RemovedElement remove_element(ExplicitSolid& solid, std::size_t element);
 
 /// Adds the nodes of a plane boundary (living elements' faces on it) to the damped nodes. Fix components first.
 void add_non_reflecting_boundary(ExplicitSolid& solid, const Plane& plane);
+/// Damps all nodes by a force `rate` (1/s) x mass x velocity against it. Its work is booked with what leaves through
+/// non-reflecting boundaries. Fix components first.
+void add_mass_damping(ExplicitSolid& solid, double rate);
 /// Makes the damped boundary carry what is needed for equilibrium under the present internal and external forces.
 void hold_boundary_at_rest(ExplicitSolid& solid, std::span<const double> external_force);
 

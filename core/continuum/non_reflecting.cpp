@@ -38,25 +38,46 @@ std::map<std::int32_t, double> areas_on_plane(const ExplicitSolid& solid, const 
   return areas;
 }
 
+/// Where each damped node stands in the list.
+std::map<std::int32_t, std::size_t> damped_entries(const ExplicitSolid& solid) {
+  std::map<std::int32_t, std::size_t> known;
+  for (std::size_t k = 0; k < solid.damped.nodes.size(); ++k) known[solid.damped.nodes[k]] = k;
+  return known;
+}
+
+/// The node's place in the list, to which it is added where it is not yet there.
+std::size_t damped_entry(ExplicitSolid& solid, std::map<std::int32_t, std::size_t>& known, std::int32_t node) {
+  const auto [entry, is_new] = known.emplace(node, solid.damped.nodes.size());
+  if (is_new) {
+    solid.damped.nodes.push_back(node);
+    solid.damped.damping.insert(solid.damped.damping.end(), 6, 0.0);
+    solid.damped.static_force.insert(solid.damped.static_force.end(), 3, 0.0);
+  }
+  return entry->second;
+}
+
 }  // namespace
+
+void add_mass_damping(ExplicitSolid& solid, double rate) {
+  std::map<std::int32_t, std::size_t> known = damped_entries(solid);
+  for (std::size_t n = 0; n < solid.node_count(); ++n) {
+    const std::size_t k = damped_entry(solid, known, static_cast<std::int32_t>(n));
+    for (std::size_t c = 0; c < 3; ++c)
+      if (!(solid.fixed[n] >> c & 1)) solid.damped.damping[6 * k + c] += rate * solid.masses[n];
+  }
+}
 
 void add_non_reflecting_boundary(ExplicitSolid& solid, const Plane& plane) {
   const double rho = density(solid.law), normal_speed = longitudinal_wave_speed(solid.law),
                shear_speed = shear_wave_speed(solid.law);
-  std::map<std::int32_t, std::size_t> known;
-  for (std::size_t k = 0; k < solid.damped.nodes.size(); ++k) known[solid.damped.nodes[k]] = k;
+  std::map<std::int32_t, std::size_t> known = damped_entries(solid);
   const int row[] = {0, 1, 2, 0, 1, 2}, column[] = {0, 1, 2, 1, 2, 0};
   for (const auto& [node, area] : areas_on_plane(solid, plane)) {
-    const auto [entry, is_new] = known.emplace(node, solid.damped.nodes.size());
-    if (is_new) {
-      solid.damped.nodes.push_back(node);
-      solid.damped.damping.insert(solid.damped.damping.end(), 6, 0.0);
-      solid.damped.static_force.insert(solid.damped.static_force.end(), 3, 0.0);
-    }
+    const std::size_t entry = damped_entry(solid, known, node);
     for (int c = 0; c < 6; ++c) {
       const int i = row[c], j = column[c];
       if ((solid.fixed[node] >> i & 1) || (solid.fixed[node] >> j & 1)) continue;
-      solid.damped.damping[6 * entry->second + c] +=
+      solid.damped.damping[6 * entry + c] +=
           rho * area *
           ((i == j ? shear_speed : 0.0) + (normal_speed - shear_speed) * plane.normal[i] * plane.normal[j]);
     }

@@ -60,7 +60,9 @@ std::vector<double> vertical_line(const Scene& scene) {
     const double below = std::ceil((anchor - tail) / cell - 1e-9) + cells_below_tail;
     fine_bottom = std::max(fluid.bottom, anchor - below * cell);
   }
-  auto line = graded_line(fluid.bottom, anchor, fine_bottom, anchor, cell, scene.resolution.growth);
+  std::vector<double> line;  // the ice may be the floor
+  if (fluid.bottom < anchor)
+    line = graded_line(fluid.bottom, anchor, fine_bottom, anchor, cell, scene.resolution.growth);
   if (scene.ice) append_equal_cells(line, anchor, anchor + scene.ice->thickness, cell);
   append_equal_cells(line, anchor, fluid.top, cell);
   return line;

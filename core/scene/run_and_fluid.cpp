@@ -156,6 +156,10 @@ void read_fluid(const Values& values, Scene& scene) {
   f.sleeping_threshold = values.number("fluid.sleeping_threshold");
   f.bottom = (scene.ice ? scene.ice->lower_face : f.waterline) - values.number("water.depth");
   f.top = (scene.ice ? scene.ice->lower_face + scene.ice->thickness : f.waterline) + values.number("air.height");
+  if (values.number("water.depth") == 0 &&
+      (!scene.ice || v || scene.ice->sides == "non_reflecting" || scene.ice->sides == "free"))
+    values.fail("water.depth",
+                "0 makes the ice the floor of the water: it needs [ice] with clamped sides or ends, and no [vehicle]");
   if (v) {
     f.bottom = std::min(f.bottom, v->nose_position - lowest_below_nose(*v) - cells_below_tail * cell);
     f.top = std::max(f.top, v->nose_position + v->speed * scene.run.end_time + cells_above_nose * cell);

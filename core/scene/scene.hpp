@@ -101,7 +101,8 @@ struct Ice {
   double lower_face = 0;                        ///< m, z of the lower face
   std::string material;
   double critical_strain = 0;
-  std::string sides;      ///< "non_reflecting", "free" or "clamped"
+  std::string sides;      ///< "non_reflecting", "free", "clamped" or "clamped_ends"
+  double damping = 0;     ///< 1/s, force over mass and velocity; 0: none
   double held_rim = 0;    ///< m, width of a rim of the upper face whose nodes are held; 0: none
   std::string particles;  ///< what a converted element becomes: "element_centre", "free_masses" or "none"
   std::optional<Bending> bending;

@@ -125,8 +125,12 @@ std::vector<KeyRule> solid_rules() {
       number("ice.lower_face", dim::length, "0", "z of the lower face"),
       text("ice.material", "ice.paper", "card, law johnson_holmquist_2, j2_plastic or elastic"),
       positive("ice.critical_strain", dim::none, "0.35", "effective strain at which an element becomes a particle"),
-      choice("ice.sides", {"auto", "non_reflecting", "free", "clamped"}, "auto",
-             "lateral faces; auto: non_reflecting, free for a beam"),
+      choice(
+          "ice.sides", {"auto", "non_reflecting", "free", "clamped", "clamped_ends"}, "auto",
+          "lateral faces; clamped_ends: held at the ends along x, sliding in the faces across y (plane strain); auto: "
+          "non_reflecting, free for a beam"),
+      number("ice.damping", dim::frequency, "0",
+             "of all motion of a plate that is to come to rest: force over mass and velocity; not beside a vehicle", 0),
       number("ice.held_rim", dim::length, "0",
              "width of a rim along the sides of the upper face (away from the vehicle) that is held; 0: none", 0),
       choice("ice.particles", {"element_centre", "free_masses", "none"}, "element_centre",
@@ -155,8 +159,11 @@ std::vector<KeyRule> solid_rules() {
 std::vector<KeyRule> fluid_rules() {
   std::vector<KeyRule> rules{
       text("water.material", "water", "card"),
-      positive("water.depth", dim::length, "120 mm",
-               "below the ice's lower face, or the waterline without ice; deepened to hold the vehicle"),
+      number(
+          "water.depth", dim::length, "120 mm",
+          "below the ice's lower face, or the waterline without ice; deepened to hold the vehicle; 0: the ice is the "
+          "floor of the water, dry below",
+          0),
       number("water.surface", dim::length, "auto",
              "z of the undisturbed waterline; auto: draught of the floating ice, 0 without ice"),
       text("air.material", "air", "card"),

@@ -129,6 +129,13 @@ Ice read_ice(const Values& values) {
   }
   ice.sides = values.text("ice.sides");
   if (ice.sides == "auto") ice.sides = ice.bending || ice.ball ? "free" : "non_reflecting";
+  ice.damping = values.number("ice.damping");
+  if (ice.damping > 0 && (values.has("vehicle") || ice.ball || ice.bending))
+    values.fail("ice.damping",
+                "is for a plate that comes to rest under water and weight; must be 0 beside [vehicle], "
+                "[ice.ball] and [ice.bending]");
+  if (ice.bending && ice.sides != "free")
+    values.fail("ice.sides", "a beam between rollers is free; must be auto or free");
   if (ice.ball && ice.sides != "free") values.fail("ice.sides", "a ball has no sides; must be auto or free");
   return ice;
 }

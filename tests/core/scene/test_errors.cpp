@@ -71,6 +71,9 @@ TEST(SceneErrors, ImpossibleValuesSayWhatIsAllowed) {
       {{"ice.critical_strain=true"}, {"a plain number"}},
       {{"resolution.cell=2"}, {"must not exceed ice.thickness"}},
       {{"fluid.length=100 mm"}, {"must not be below that of the ice"}},
+      {{"water.depth=0"}, {"0 makes the ice the floor of the water", "clamped"}},
+      {{"ice.damping=100"}, {"comes to rest", "beside [vehicle]"}},
+      {{"ice.sides=clamped_end"}, {"did you mean clamped_ends?"}},
       {{"vehicle=3"}, {"must be a table, [vehicle]"}},
       {{"vehicle"}, {"must be key=value"}},
   };
@@ -87,6 +90,10 @@ TEST(SceneErrors, PartsThatCannotStandTogetherAreNamed) {
                  {":3: ", "water.depth cannot stand beside [dam]"});
   expect_message(message_of(case_folder("dam_break"), {.level = {}, .settings = {"dam.height=1 m"}}),
                  {"dam.height", "must be below dam.tank_height"});
+  expect_message(message_of(case_folder("four_point_bending"), {.level = {}, .settings = {"ice.sides=clamped_ends"}}),
+                 {"a beam between rollers is free"});
+  expect_message(message_of(case_folder("plate_under_water"), {.level = {}, .settings = {"ice.sides=free"}}),
+                 {"water.depth", "clamped sides or ends"});
   expect_message(message_of(scene_file("")), {"an empty scene"});
 }
 

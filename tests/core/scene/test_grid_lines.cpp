@@ -78,6 +78,14 @@ TEST(FluidGridLines, HaveNodesAtBothFacesOfTheIceAndHoldTheVehicle) {
     }
 }
 
+TEST(FluidGridLines, BeginAtTheLowerFaceOfIceThatIsTheFloor) {
+  const Scene scene = resolve(case_folder("plate_under_water"));
+  const GridLines lines = fluid_grid_lines(scene);
+  EXPECT_EQ(lines.z.front(), -0.05);
+  EXPECT_TRUE(is_node(lines.z, 0));
+  EXPECT_NEAR(lines.z.back(), 2.2, 1e-12);
+}
+
 TEST(FluidGridLines, AreFineFromTheTailUpward) {
   const auto lines = fluid_grid_lines(base_scene());
   for (std::size_t i = lines.z.size() - 1; lines.z[i] > -0.104; --i)
