@@ -111,10 +111,11 @@ POLYNYA_INLINE Tensor<T> mean_gradient(const Modes<T>& velocity, const Geometry<
   return result;
 }
 
-/// Length whose crossing by a wave bounds the step, m: V / (4 sqrt(lambda)), lambda a bound on the largest eigenvalue
-/// of sum_m gradient gradient^T that is exact for bricks in any orientation (their shortest edge).
+/// Area that with the volume gives the length whose crossing by a wave bounds the step, m^2: 4 sqrt(lambda), lambda a
+/// bound on the largest eigenvalue of sum_m gradient gradient^T that is exact for bricks in any orientation (there the
+/// largest face).
 template <class T>
-POLYNYA_INLINE T shortest_length(const Geometry<T>& g) {
+POLYNYA_INLINE T largest_area(const Geometry<T>& g) {
   const auto magnitude = [](const T& x) { return maximum(x, T(-x)); };
   const T d12 = magnitude(dot(g.gradient[1], g.gradient[2]));
   const T d23 = magnitude(dot(g.gradient[2], g.gradient[3]));
@@ -125,7 +126,13 @@ POLYNYA_INLINE T shortest_length(const Geometry<T>& g) {
   const T twisted =
       dot(g.gradient[4], g.gradient[4]) + dot(g.gradient[5], g.gradient[5]) + dot(g.gradient[6], g.gradient[6]);
   const T largest = maximum(maximum(row1, row2), row3) + twisted;
-  return 0.25 * g.volume / square_root(maximum(largest, T(1e-290)));
+  return 4.0 * square_root(maximum(largest, T(1e-290)));
+}
+
+/// That length, m: for bricks the shortest edge.
+template <class T>
+POLYNYA_INLINE T shortest_length(const Geometry<T>& g) {
+  return g.volume / largest_area(g);
 }
 
 /// Modes of the nodal forces -sum_j stress_ij dV/dx_ja. stress: any tensor, row by row.

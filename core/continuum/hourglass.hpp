@@ -22,10 +22,18 @@ struct HourglassInput {
 };
 
 template <class T>
-POLYNYA_INLINE T magnitude_of(const std::array<std::array<T, 3>, 4>& v) {
+POLYNYA_INLINE T square_of(const std::array<std::array<T, 3>, 4>& v) {
   T sum = dot(v[0], v[0]);
   for (int m = 1; m < 4; ++m) sum += dot(v[m], v[m]);
-  return square_root(sum);
+  return sum;
+}
+
+/// The coefficient c of a force 8 c |q|, or what the allowed force leaves of it. Few elements come near it at a time.
+template <class T>
+POLYNYA_INLINE T capped(const T& coefficient, const T& square, const T& allowed) {
+  const T force_square = 64.0 * coefficient * coefficient * square;
+  if (!any(force_square > allowed * allowed)) return coefficient;
+  return coefficient * minimum(T(1.0), T(allowed / square_root(maximum(force_square, T(1e-290)))));
 }
 
 /// v_m - c_jm v_j for the modes m = 4..7. natural: [m - 4][j], or null where all are zero.
@@ -47,8 +55,7 @@ POLYNYA_INLINE T add_hourglass_stiffness(const HourglassInput<T>& in, const Mode
                                          const std::array<std::array<T, 3>, 4>* natural, Modes<T>& force) {
   const auto shape = beyond_mean_motion(x, natural);
   const auto rate = beyond_mean_motion(v, natural);
-  const T size = 8.0 * in.stiffness * magnitude_of(shape);
-  const T k = 8.0 * in.stiffness * minimum(T(1.0), T(in.allowed / maximum(size, T(1e-290))));
+  const T k = 8.0 * capped(in.stiffness, square_of(shape), in.allowed);
   T power = T(0.0);
   for (int m = 0; m < 4; ++m)
     for (int i = 0; i < 3; ++i) {
@@ -65,17 +72,16 @@ POLYNYA_INLINE T add_hourglass_stiffness(const HourglassInput<T>& in, const Mode
 /// middle: modes at mid-step. Returns the dissipated power, W.
 template <class T>
 POLYNYA_INLINE T add_hourglass_viscosity(const HourglassInput<T>& in, const Modes<T>& x, const Modes<T>& middle,
-                                         const Modes<T>& v, const Tensor<T>& gradient, const T& volume, Modes<T>& force,
-                                         Tensor<T>& stress) {
+                                         const Modes<T>& v, const Tensor<T>& gradient, const T& inverse_volume,
+                                         Modes<T>& force, Tensor<T>& stress) {
   std::array<std::array<T, 3>, 4> rate;
   for (int m = 0; m < 4; ++m)
     for (int i = 0; i < 3; ++i)
       rate[m][i] = v[m + 4][i] - (gradient[3 * i] * middle[m + 4][0] + gradient[3 * i + 1] * middle[m + 4][1] +
                                   gradient[3 * i + 2] * middle[m + 4][2]);
-  const T size = magnitude_of(rate);
-  const T capped = in.allowed / maximum(T(8.0 * size), T(1e-290));
-  const T c = 8.0 * maximum(in.viscosity_floor, minimum(in.viscosity, capped));
-  const T per_volume = 8.0 * c / volume;
+  const T square = square_of(rate);
+  const T c = 8.0 * maximum(in.viscosity_floor, capped(in.viscosity, square, in.allowed));
+  const T per_volume = 8.0 * c * inverse_volume;
   for (int i = 0; i < 3; ++i) {
     for (int m = 0; m < 4; ++m) force[m + 4][i] -= c * rate[m][i];
     for (int j = 0; j < 3; ++j) {
@@ -84,7 +90,7 @@ POLYNYA_INLINE T add_hourglass_viscosity(const HourglassInput<T>& in, const Mode
       stress[3 * i + j] -= per_volume * sum;
     }
   }
-  return 8.0 * c * size * size;
+  return 8.0 * c * square;
 }
 
 }  // namespace polynya::continuum

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/compute/large_pages.hpp"
 #include "core/compute/pack.hpp"
 #include "core/continuum/exposure.hpp"
 #include "core/continuum/hexahedron_kernel.hpp"
@@ -23,45 +24,38 @@ void check_mesh(const std::string& name, const HexMesh& mesh) {
 void size_arrays(ExplicitSolid& solid) {
   const std::size_t nodes = solid.mesh.node_count(), elements = compute::padded(solid.element_count()),
                     packs = elements / w;
-  solid.positions = solid.mesh.nodes;
-  solid.velocities.assign(3 * nodes, 0.0);
-  solid.internal_force.assign(3 * nodes, 0.0);
+  for (auto* array : {&solid.positions, &solid.velocities, &solid.internal_force})
+    *array = compute::zeros_in_large_pages(3 * nodes);
+  std::copy(solid.mesh.nodes.begin(), solid.mesh.nodes.end(), solid.positions.begin());
   solid.masses.assign(nodes, 0.0);
   solid.fixed.assign(nodes, 0);
   solid.living_elements.assign(nodes, 0);
   ElementState& element = solid.element;
-  for (auto* array : {&element.volume, &element.mass, &element.internal_energy, &element.hourglass_energy,
-                      &element.viscous_energy, &element.damage, &element.plastic_strain, &element.bulking_pressure,
-                      &element.alive, &solid.hourglass_stiffness, &solid.exposure})
-    array->assign(elements, 0.0);
-  for (auto& component : element.stress) component.assign(elements, 0.0);
-  element.step_limit.assign(elements, 1e300);
-  element.reference_volume.assign(elements, 1.0);
+  for (auto* array :
+       {&element.volume, &element.mass, &element.damage, &element.plastic_strain, &element.bulking_pressure,
+        &element.alive, &solid.hourglass_stiffness, &solid.exposure, &element.step_limit, &element.reference_volume})
+    *array = compute::zeros_in_large_pages(elements);
+  for (auto& component : element.stress) component = compute::zeros_in_large_pages(elements);
+  std::fill(element.step_limit.begin(), element.step_limit.end(), 1e300);
+  std::fill(element.reference_volume.begin(), element.reference_volume.end(), 1.0);
   solid.natural_hourglass.assign(12 * elements, 0.0);
-  solid.element_force.assign(24 * elements, 0.0);
   solid.irregular.assign(packs, 0);
   solid.idle.assign(packs, 0);
+  solid.complete.assign(packs, 0);
   std::fill_n(element.alive.begin(), solid.element_count(), 1.0);
+  std::fill_n(solid.complete.begin(), solid.element_count() / w, std::uint8_t{1});
 }
 
 void number_connections(ExplicitSolid& solid) {
-  const std::size_t elements = solid.element_count(), nodes = solid.node_count();
+  const std::size_t elements = solid.element_count();
   solid.connectivity.resize(8 * compute::padded(elements));
-  solid.gather_start.assign(nodes + 1, 0);
   for (std::size_t e = 0; e < compute::padded(elements); ++e)
     for (std::size_t a = 0; a < 8; ++a)
       solid.connectivity[(e / w * 8 + a) * w + e % w] = 3 * solid.mesh.elements[8 * (e < elements ? e : 0) + a];
-  for (std::int32_t n : solid.mesh.elements) ++solid.gather_start[n + 1];
-  for (std::size_t n = 0; n < nodes; ++n) {
-    solid.living_elements[n] = static_cast<std::uint8_t>(solid.gather_start[n + 1]);
-    solid.gather_start[n + 1] += solid.gather_start[n];
-  }
-  solid.gather_slot.resize(8 * elements);
-  std::vector<std::int32_t> next(solid.gather_start.begin(), solid.gather_start.end() - 1);
-  for (std::size_t e = 0; e < elements; ++e)
-    for (std::size_t a = 0; a < 8; ++a)
-      solid.gather_slot[next[solid.mesh.elements[8 * e + a]]++] =
-          static_cast<std::int32_t>((e / w * 24 + 3 * a) * w + e % w);
+  solid.chunks = make_chunks(solid.mesh);
+  solid.force_shares.assign(static_cast<std::size_t>(solid.chunks.shares), {});
+  solid.chunk_step_limit.assign(solid.chunks.chunk_count(), 1e300);
+  for (std::int32_t n : solid.mesh.elements) ++solid.living_elements[n];
 }
 
 /// Hourglass shape of the reference in the base of its half edges, and Flanagan & Belytschko's stiffness
@@ -125,8 +119,6 @@ ExplicitSolid make_solid(std::string name, HexMesh mesh, Law law, Numerics numer
     for (std::size_t a = 0; a < 8; ++a) solid.masses[solid.mesh.elements[8 * e + a]] += 0.125 * solid.element.mass[e];
   }
   internal_forces(solid, 0.0);
-  for (auto* array : {&solid.element.internal_energy, &solid.element.hourglass_energy, &solid.element.viscous_energy})
-    std::fill(array->begin(), array->end(), 0.0);
   return solid;
 }
 
