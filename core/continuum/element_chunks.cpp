@@ -14,9 +14,10 @@ namespace {
 
 constexpr std::size_t w = compute::pack_width;
 
-/// Some 4096 elements, whose nodes fit a core's own cache; fewer in a small mesh, so that threads find chunks to share.
+/// Some 8192 elements, whose nodes (numbered in 16 bits) fit a core's own cache; fewer in a small mesh, so that threads
+/// find chunks to share.
 std::size_t chunk_size(std::size_t packs) {
-  constexpr std::size_t most = 4096 / w, least = 128 / w, wanted_chunks = 16;
+  constexpr std::size_t most = 8192 / w, least = 128 / w, wanted_chunks = 16;
   return std::clamp((packs + wanted_chunks - 1) / wanted_chunks, least, most);
 }
 

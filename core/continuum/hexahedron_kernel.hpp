@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -33,7 +34,8 @@ POLYNYA_INLINE NodalVectors<T> nodal_vectors(const ExplicitSolid& solid, const s
   return result;
 }
 
-/// Motion of the nodes of a chunk and what its elements give them; rows of element_chunks.hpp's connectivity.
+/// Motion of the nodes of a chunk, an eighth of it (exactly: so its sums are the modes), and what its elements give
+/// them.
 struct ChunkNodes {
   std::vector<NodeRecord> position, velocity, force;
 };
@@ -42,6 +44,7 @@ template <class T>
 POLYNYA_INLINE NodalVectors<T> nodal_vectors(const std::vector<NodeRecord>& nodes, const ElementChunks& chunks,
                                              Place place) {
   NodalVectors<T> result;
+#pragma GCC unroll 8
   for (std::size_t a = 0; a < 8; ++a)
     result[a] = gather_vectors<T>(nodes.data(), &chunks.connectivity[place.row(8, a)]);
   return result;
@@ -55,6 +58,21 @@ POLYNYA_INLINE PointState<T> load_state(const ElementState& element, std::size_t
   state.plastic_strain = load<T>(&element.plastic_strain[e]);
   state.bulking_pressure = load<T>(&element.bulking_pressure[e]);
   return state;
+}
+
+/// Asks for the state that comes up some packs later: the processor's own look-ahead ends with every page.
+template <class LawType>
+POLYNYA_INLINE void prefetch_state(const ExplicitSolid& solid, std::size_t pack) {
+  constexpr std::size_t ahead = 12;
+  const ElementState& element = solid.element;
+  const std::size_t e = std::min(pack + ahead, solid.idle.size() - 1) * compute::pack_width;
+  const auto fetch = [&](const auto& array, std::size_t index) { __builtin_prefetch(&array[index]); };
+  for (const auto& component : element.stress) fetch(component, e);
+  fetch(element.reference_volume, e), fetch(element.volume, e), fetch(element.step_limit, e);
+  fetch(solid.exposure, e), fetch(solid.hourglass_stiffness, e);
+  fetch(solid.chunks.connectivity, 8 * e), fetch(solid.chunks.connectivity, 8 * e + 32);
+  if constexpr (!std::is_same_v<LawType, Elastic>)
+    fetch(element.damage, e), fetch(element.plastic_strain, e), fetch(element.bulking_pressure, e);
 }
 
 /// Bulk viscosity of von Neumann, Richtmyer and Landshoff, only in compression.
@@ -104,6 +122,14 @@ POLYNYA_INLINE void store_living(const T& value, std::vector<double>& array, std
   double* to = &array[e];
   store(all_live ? value : select(lives, value, load<T>(to)), to);
 }
+/// The same for what seldom changes: memory that is not written need not be written back.
+template <class T, class Mask>
+POLYNYA_INLINE void store_changed(const T& value, std::vector<double>& array, std::size_t e, const Mask& lives) {
+  double* to = &array[e];
+  const T old = load<T>(to);
+  if (any(lives && value != old)) store(select(lives, value, old), to);
+}
+
 /// What the elements of a chunk add up, lane by lane.
 template <class T>
 struct ElementSums {
@@ -122,8 +148,8 @@ POLYNYA_INLINE bool advance_elements(ExplicitSolid& solid, const LawType& law, P
   const auto lives = all_live ? T(1.0) > T(0.5) : load<T>(&element.alive[e]) > T(0.5);
   const Numerics& numerics = solid.numerics;
 
-  const Modes<T> v = modes_of(nodal_vectors<T>(nodes.velocity, solid.chunks, place));
-  const Modes<T> x = modes_of(nodal_vectors<T>(nodes.position, solid.chunks, place));
+  const Modes<T> v = mode_sums_of(nodal_vectors<T>(nodes.velocity, solid.chunks, place));
+  const Modes<T> x = mode_sums_of(nodal_vectors<T>(nodes.position, solid.chunks, place));
   Modes<T> middle;
   for (int m = 1; m < 8; ++m)
     for (int i = 0; i < 3; ++i) middle[m][i] = x[m][i] - 0.5 * dt * v[m][i];
@@ -168,6 +194,7 @@ POLYNYA_INLINE bool advance_elements(ExplicitSolid& solid, const LawType& law, P
   if (!all_live)
     for (auto& node : nodal_force)
       for (T& component : node) component = select(lives, component, T(0.0));
+#pragma GCC unroll 8
   for (std::size_t a = 0; a < 8; ++a)
     scatter_vectors<T>(nodal_force[a], nodes.force.data(), &solid.chunks.connectivity[place.row(8, a)]);
 
@@ -179,9 +206,9 @@ POLYNYA_INLINE bool advance_elements(ExplicitSolid& solid, const LawType& law, P
   for (int c = 0; c < 6; ++c) store_living(state.stress[c], element.stress[c], e, all_live, lives);
   store_living(now.volume, element.volume, e, all_live, lives);
   if constexpr (!std::is_same_v<LawType, Elastic>) {
-    store_living(state.damage, element.damage, e, all_live, lives);
-    store_living(state.plastic_strain, element.plastic_strain, e, all_live, lives);
-    store_living(state.bulking_pressure, element.bulking_pressure, e, all_live, lives);
+    store_changed(state.damage, element.damage, e, lives);
+    store_changed(state.plastic_strain, element.plastic_strain, e, lives);
+    store_changed(state.bulking_pressure, element.bulking_pressure, e, lives);
   }
   T step = element_step(bulk, law.shear_modulus, load<T>(&solid.exposure[e]),
                         T(state.relative_volume * (1 / law.density)), length, viscous.speed);

@@ -56,16 +56,17 @@ POLYNYA_INLINE T add_hourglass_stiffness(const HourglassInput<T>& in, const Mode
   const auto shape = beyond_mean_motion(x, natural);
   const auto rate = beyond_mean_motion(v, natural);
   const T k = 8.0 * capped(in.stiffness, square_of(shape), in.allowed);
-  T power = T(0.0);
-  for (int m = 0; m < 4; ++m)
+  T power = T(0.0), change = T(0.0);
+  for (int m = 0; m < 4; ++m) {
+    power += dot(shape[m], rate[m]);
+    change += dot(rate[m], rate[m]);
     for (int i = 0; i < 3; ++i) {
-      const T f = k * shape[m][i];
-      force[m + 4][i] -= f;
+      force[m + 4][i] -= k * shape[m][i];
       if (natural)
-        for (int j = 0; j < 3; ++j) force[j + 1][i] += (*natural)[m][j] * f;
-      power += 8.0 * k * (shape[m][i] - 0.5 * dt * rate[m][i]) * rate[m][i];
+        for (int j = 0; j < 3; ++j) force[j + 1][i] += (*natural)[m][j] * (k * shape[m][i]);
     }
-  return power;
+  }
+  return 8.0 * k * (power - 0.5 * dt * change);
 }
 
 /// Adds the viscous part: forces on the modes 4..7, and to `stress` what makes them orthogonal to linear fields.

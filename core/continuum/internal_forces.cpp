@@ -42,10 +42,14 @@ void stage_nodes(const ExplicitSolid& solid, std::size_t chunk, ChunkNodes& node
   const auto count = static_cast<std::size_t>(chunks.start[chunk + 1] - chunks.start[chunk]);
   if (nodes.position.size() < count)
     for (auto* records : {&nodes.position, &nodes.velocity, &nodes.force}) records->resize(count);
+  constexpr std::size_t ahead = 64;
   for (std::size_t k = 0; k < count; ++k) {
+    const std::int32_t later = 3 * list[std::min(k + ahead, count - 1)];
+    __builtin_prefetch(&solid.positions[later]);
+    __builtin_prefetch(&solid.velocities[later]);
     const double *x = &solid.positions[3 * list[k]], *v = &solid.velocities[3 * list[k]];
-    nodes.position[k].value = {x[0], x[1], x[2], 0};
-    nodes.velocity[k].value = {v[0], v[1], v[2], 0};
+    nodes.position[k].value = {0.125 * x[0], 0.125 * x[1], 0.125 * x[2], 0};
+    nodes.velocity[k].value = {0.125 * v[0], 0.125 * v[1], 0.125 * v[2], 0};
     nodes.force[k].value = {};
   }
 }

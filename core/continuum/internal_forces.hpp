@@ -31,6 +31,7 @@ ChunkReport advance_packs(ExplicitSolid& solid, const LawType& law, std::size_t 
   ElementSums<T> sums;
   for (std::size_t pack = begin; pack < end; ++pack) {
     if (solid.idle[pack]) continue;
+    prefetch_state<LawType>(solid, pack);
     bool good = true;
     for (std::size_t lane = 0; lane < compute::pack_width; lane += width_of<T>)
       good = advance_elements<LawType, T>(solid, law, {pack, lane}, dt, nodes, sums) && good;
