@@ -26,9 +26,10 @@ namespace polynya::continuum {
 struct Numerics {
   double quadratic_viscosity = 1.5;  ///< bulk viscosity, only in compression
   double linear_viscosity = 0.06;
-  double hourglass_stiffness = 0.05;  ///< Flanagan and Belytschko's kappa
+  double hourglass_stiffness = 1;     ///< of what an element's bending means (hourglass.hpp)
   double hourglass_viscosity = 0.05;  ///< decay rate of an hourglass mode in units of wave speed / length
   double hourglass_floor = 0.01;      ///< the part of the decay rate that the cap by the flow stress leaves alone
+  double hourglass_flowed = 0.3;      ///< the part of the stiffness that plastic flow leaves
 };
 
 /// Per element; every array is padded to whole packs, padding elements are dead.
@@ -97,16 +98,16 @@ struct ExplicitSolid {
   double pending_internal_work = 0, pending_external_work = 0, pending_boundary_flux = 0, pending_step_change = 0;
 
   // Internal to the kernels. Lanes are elements of one pack, W = compute::pack_width.
-  std::vector<std::int32_t> connectivity;   ///< [pack][8][W], 3 x node index; padding lanes repeat element 0
-  std::vector<double> natural_hourglass;    ///< [pack][12][W], hourglass shape of the reference element
-  std::vector<std::uint8_t> irregular;      ///< [pack], 1 if any lane is not a parallelepiped in the reference
-  std::vector<double> hourglass_stiffness;  ///< [e], N/m, undamaged
-  std::vector<double> exposure;             ///< [e], 0 (amid others) to 1 (alone): see element_step
-  std::vector<std::uint8_t> idle;           ///< [pack], 1 if every lane is dead
-  std::vector<std::uint8_t> complete;       ///< [pack], 1 if every lane lives
-  ElementChunks chunks;                     ///< how the elements are worked through
-  std::vector<NodeRecord> force_shares;     ///< N, of the elements of one chunk on a node that it shares
-  std::vector<double> chunk_step_limit;     ///< [chunk], s, smallest stable step of its elements
+  std::vector<std::int32_t> connectivity;  ///< [pack][8][W], 3 x node index; padding lanes repeat element 0
+  std::vector<double> natural_hourglass;   ///< [pack][12][W], hourglass shape of the reference element
+  std::vector<std::uint8_t> irregular;     ///< [pack], 1 if any lane is not a parallelepiped in the reference
+  std::array<std::vector<double>, 3> hourglass_stiffness;  ///< [e], N/m, of the modes 4, 5, 6, undamaged
+  std::vector<double> exposure;                            ///< [e], 0 (amid others) to 1 (alone): see element_step
+  std::vector<std::uint8_t> idle;                          ///< [pack], 1 if every lane is dead
+  std::vector<std::uint8_t> complete;                      ///< [pack], 1 if every lane lives, 2 if amid others
+  ElementChunks chunks;                                    ///< how the elements are worked through
+  std::vector<NodeRecord> force_shares;                    ///< N, of the elements of one chunk on a node that it shares
+  std::vector<double> chunk_step_limit;                    ///< [chunk], s, smallest stable step of its elements
 
   std::size_t node_count() const { return masses.size(); }
   std::size_t element_count() const { return mesh.element_count(); }

@@ -5,6 +5,7 @@
 
 #include "core/compute/pack.hpp"
 #include "core/continuum/explicit_solid.hpp"
+#include "core/continuum/exposure.hpp"
 #include "core/continuum/hexahedron.hpp"
 #include "core/continuum/hourglass.hpp"
 #include "core/continuum/law.hpp"
@@ -69,7 +70,7 @@ POLYNYA_INLINE void prefetch_state(const ExplicitSolid& solid, std::size_t pack)
   const auto fetch = [&](const auto& array, std::size_t index) { __builtin_prefetch(&array[index]); };
   for (const auto& component : element.stress) fetch(component, e);
   fetch(element.reference_volume, e), fetch(element.volume, e), fetch(element.step_limit, e);
-  fetch(solid.exposure, e), fetch(solid.hourglass_stiffness, e);
+  for (const auto& mode : solid.hourglass_stiffness) fetch(mode, e);
   fetch(solid.chunks.connectivity, 8 * e), fetch(solid.chunks.connectivity, 8 * e + 32);
   if constexpr (!std::is_same_v<LawType, Elastic>)
     fetch(element.damage, e), fetch(element.plastic_strain, e), fetch(element.bulking_pressure, e);
@@ -101,13 +102,28 @@ POLYNYA_INLINE T element_step(const T& bulk, double shear, const T& exposure, co
   return length / (viscous_speed + square_root(T(viscous_speed * viscous_speed + square)));
 }
 
-template <class T>
-POLYNYA_INLINE HourglassInput<T> hourglass_input(const ExplicitSolid& solid, std::size_t e, const T& mass,
-                                                 const T& damage, const T& flow, const T& area, const T& inverse_length,
-                                                 const T& wave_speed) {
+/// What damage and plastic flow leave of the hourglass stiffness.
+template <class LawType, class T>
+POLYNYA_INLINE T hourglass_share(const Numerics& numerics, const LawType& law, const PointState<T>& state,
+                                 const T& flow) {
+  if constexpr (std::is_same_v<LawType, Elastic>) return T(1.0);
+  if (!any(state.plastic_strain > T(0.0))) return 1.0 - state.damage;
+  const T yields = maximum(flow, T(1e-290));  // plastic strain is measured by Y / 3 G
+  const T lost = minimum(T(1.0), T(3.0 * law.shear_modulus * state.plastic_strain / yields));
+  return (1.0 - state.damage) * (1.0 - (1.0 - numerics.hourglass_flowed) * lost);
+}
+
+template <class LawType, class T>
+POLYNYA_INLINE HourglassInput<T> hourglass_input(const ExplicitSolid& solid, const LawType& law, std::size_t e,
+                                                 const T& mass, const PointState<T>& state, const T& flow,
+                                                 const T& area, const T& inverse_length, const T& wave_speed) {
   const T rate = (1.0 / 64.0) * mass * wave_speed * inverse_length;
-  return {load<T>(&solid.hourglass_stiffness[e]) * (1.0 - damage), solid.numerics.hourglass_viscosity * rate,
-          solid.numerics.hourglass_floor * rate, flow * area * (1.0 / 12.0)};
+  HourglassInput<T> in{
+      {}, solid.numerics.hourglass_viscosity * rate, solid.numerics.hourglass_floor * rate, flow * area * (1.0 / 12.0)};
+  const T share = hourglass_share(solid.numerics, law, state, flow);
+  for (std::size_t m = 0; m < 3; ++m) in.stiffness[m] = share * load<T>(&solid.hourglass_stiffness[m][e]);
+  in.stiffness[3] = (1.0 / 3.0) * minimum(minimum(in.stiffness[0], in.stiffness[1]), in.stiffness[2]);
+  return in;
 }
 
 template <class T>
@@ -173,9 +189,9 @@ POLYNYA_INLINE bool advance_elements(ExplicitSolid& solid, const LawType& law, P
   const T speed = wave_speed(law, state);
   const T expansion = gradient[0] + gradient[4] + gradient[8];
   const auto viscous = bulk_viscosity(numerics, expansion, length, speed, density);
-  const auto control = hourglass_input(solid, e, mass, state.damage, flow, area, T(area * inverse_volume), speed);
+  const auto control = hourglass_input(solid, law, e, mass, state, flow, area, T(area * inverse_volume), speed);
 
-  std::array<std::array<T, 3>, 4> natural;
+  HourglassModes<T> natural;
   const bool irregular = solid.irregular[place.pack] != 0;
   if (irregular)
     for (std::size_t m = 0; m < 4; ++m)
@@ -210,8 +226,9 @@ POLYNYA_INLINE bool advance_elements(ExplicitSolid& solid, const LawType& law, P
     store_changed(state.plastic_strain, element.plastic_strain, e, lives);
     store_changed(state.bulking_pressure, element.bulking_pressure, e, lives);
   }
-  T step = element_step(bulk, law.shear_modulus, load<T>(&solid.exposure[e]),
-                        T(state.relative_volume * (1 / law.density)), length, viscous.speed);
+  const T exposure = solid.complete[place.pack] == 2 ? T(exposure_amid_others) : load<T>(&solid.exposure[e]);
+  T step = element_step(bulk, law.shear_modulus, exposure, T(state.relative_volume * (1 / law.density)), length,
+                        viscous.speed);
   if (!all_live) step = select(lives, step, T(1e300));
   store(step, &element.step_limit[e]);
   sums.step_limit = minimum(sums.step_limit, step);

@@ -33,8 +33,9 @@ void size_arrays(ExplicitSolid& solid) {
   ElementState& element = solid.element;
   for (auto* array :
        {&element.volume, &element.mass, &element.damage, &element.plastic_strain, &element.bulking_pressure,
-        &element.alive, &solid.hourglass_stiffness, &solid.exposure, &element.step_limit, &element.reference_volume})
+        &element.alive, &solid.exposure, &element.step_limit, &element.reference_volume})
     *array = compute::zeros_in_large_pages(elements);
+  for (auto& mode : solid.hourglass_stiffness) mode = compute::zeros_in_large_pages(elements);
   for (auto& component : element.stress) component = compute::zeros_in_large_pages(elements);
   std::fill(element.step_limit.begin(), element.step_limit.end(), 1e300);
   std::fill(element.reference_volume.begin(), element.reference_volume.end(), 1.0);
@@ -43,7 +44,6 @@ void size_arrays(ExplicitSolid& solid) {
   solid.idle.assign(packs, 0);
   solid.complete.assign(packs, 0);
   std::fill_n(element.alive.begin(), solid.element_count(), 1.0);
-  std::fill_n(solid.complete.begin(), solid.element_count() / w, std::uint8_t{1});
 }
 
 void number_connections(ExplicitSolid& solid) {
@@ -58,13 +58,13 @@ void number_connections(ExplicitSolid& solid) {
   for (std::int32_t n : solid.mesh.elements) ++solid.living_elements[n];
 }
 
-/// Hourglass shape of the reference in the base of its half edges, and Flanagan & Belytschko's stiffness
-/// kappa/16 (K + 4 G/3) sum b.b / V, b = dV/dx of the nodes.
-void shape_hourglass(ExplicitSolid& solid, std::size_t e, const Modes<double>& c, const Geometry<double>& g,
-                     double modulus) {
-  double squares = 0;
-  for (int m = 1; m <= 6; ++m) squares += 8 * dot(g.gradient[m], g.gradient[m]);
-  solid.hourglass_stiffness[e] = solid.numerics.hourglass_stiffness / 16 * modulus * squares / g.volume;
+/// Hourglass shape of the reference in the base of its half edges, and the stiffness of bending: see hourglass.hpp.
+void shape_hourglass(ExplicitSolid& solid, std::size_t e, const Modes<double>& c, double volume, double young) {
+  for (std::size_t m = 0; m < 3; ++m) {
+    const auto &one = c[(m + 1) % 3 + 1], &other = c[(m + 2) % 3 + 1];
+    solid.hourglass_stiffness[m][e] =
+        solid.numerics.hourglass_stiffness * young * volume / (192 * std::max(dot(one, one), dot(other, other)));
+  }
   const double triple = dot(c[1], cross(c[2], c[3]));
   for (std::size_t m = 0; m < 4; ++m) {
     const std::array<double, 3> natural{dot(c[m + 4], cross(c[2], c[3])) / triple,
@@ -79,7 +79,9 @@ void shape_hourglass(ExplicitSolid& solid, std::size_t e, const Modes<double>& c
 }
 
 void set_elements(ExplicitSolid& solid) {
-  const double modulus = density(solid.law) * std::pow(longitudinal_wave_speed(solid.law), 2);
+  const Elastic elastic = elastic_part(solid.law);
+  const double young =
+      9 * elastic.bulk_modulus * elastic.shear_modulus / (3 * elastic.bulk_modulus + elastic.shear_modulus);
   for (std::size_t e = 0; e < solid.element_count(); ++e) {
     const auto c = modes_of(nodal_vectors<double>(solid, solid.mesh.nodes, {e / w, e % w}));
     const auto g = geometry(c);
@@ -91,7 +93,7 @@ void set_elements(ExplicitSolid& solid) {
                                   " m^3; its nodes must be in VTK's order");
     }
     solid.element.reference_volume[e] = g.volume;
-    shape_hourglass(solid, e, c, g, modulus);
+    shape_hourglass(solid, e, c, g.volume, young);
     update_exposure(solid, e);
   }
 }
