@@ -92,7 +92,8 @@ struct ExplicitSolid {
   double step_limit = 0;  ///< s, of the last internal_forces
 
   // Bookkeeping of the energy account: see advance_velocities. internal_work: against the forces of the elements, all
-  // of them; hourglass_energy and viscous_energy are parts of it.
+  // of them; hourglass_energy and viscous_energy are parts of it. Pending: half a step begun with the velocities of
+  // advance_velocities; whoever sets another velocity after it corrects internal and external work by the difference.
   double kinetic_energy = 0, internal_work = 0, hourglass_energy = 0, viscous_energy = 0, external_work = 0,
          boundary_flux = 0, removed_energy = 0, step_change = 0;
   double pending_internal_work = 0, pending_external_work = 0, pending_boundary_flux = 0, pending_step_change = 0;
