@@ -31,7 +31,7 @@ struct Swing {
 
 /// A block of n^3 elements that swings, `speed` m/s at most.
 Swing swing(const Law& law, int n, double speed) {
-  Swing block{make_solid("block", cube(n, 1e-3 * n), law), {}, 0};
+  Swing block{make_solid("block", in_blocks(cube(n, 1e-3 * n)), law), {}, 0};
   ExplicitSolid& solid = block.solid;
   for (std::size_t k = 0; k < solid.node_count(); ++k)
     for (std::size_t i = 0; i < 3; ++i)

@@ -95,9 +95,11 @@ void move_rollers(BendingRig& rig, IceBody& beam, double time, double dt) {
   for (const std::int32_t node : rig.loads) {
     const auto n = static_cast<std::size_t>(node);
     double& v = beam.solid.velocities[3 * n + 2];
-    // The account has opened this step with the old velocity: kinetic energy, and half a step of the reaction's work.
-    beam.books.prescribed_work += 0.5 * beam.solid.masses[n] * (velocity * velocity - v * v) -
-                                  0.5 * dt * beam.solid.internal_force[3 * n + 2] * (-velocity - v);
+    // The account has opened this step with the old velocity: kinetic energy, and half a step of the work of the
+    // reaction and of the elements.
+    const double opened = 0.5 * dt * beam.solid.internal_force[3 * n + 2] * (-velocity - v);
+    beam.books.prescribed_work += 0.5 * beam.solid.masses[n] * (velocity * velocity - v * v) - opened;
+    beam.solid.pending_internal_work -= opened;
     v = -velocity;
   }
   rig.deflection += dt * velocity;

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "core/continuum/element_chunks.hpp"
 #include "core/continuum/hex_mesh.hpp"
 #include "core/continuum/law.hpp"
 #include "core/continuum/material_point.hpp"
+#include "core/continuum/nodal_lanes.hpp"
 #include "core/continuum/surface.hpp"
 
 /// A body of one-point hexahedra moved by central differences: state and the steps that change it.
@@ -24,9 +26,10 @@ namespace polynya::continuum {
 struct Numerics {
   double quadratic_viscosity = 1.5;  ///< bulk viscosity, only in compression
   double linear_viscosity = 0.06;
-  double hourglass_stiffness = 0.05;  ///< Flanagan and Belytschko's kappa
+  double hourglass_stiffness = 1;     ///< of what an element's bending means (hourglass.hpp)
   double hourglass_viscosity = 0.05;  ///< decay rate of an hourglass mode in units of wave speed / length
   double hourglass_floor = 0.01;      ///< the part of the decay rate that the cap by the flow stress leaves alone
+  double hourglass_flowed = 0.3;      ///< the part of the stiffness that plastic flow leaves
 };
 
 /// Per element; every array is padded to whole packs, padding elements are dead.
@@ -35,17 +38,13 @@ struct ElementState {
   std::vector<double> volume;                 ///< m^3
   std::vector<double> reference_volume;       ///< m^3
   std::vector<double> mass;                   ///< kg, density x reference volume
-  std::vector<double> internal_energy;        ///< J, work of the stress
-  std::vector<double> hourglass_energy;       ///< J, work of the hourglass forces
-  std::vector<double> viscous_energy;         ///< J, work of the bulk viscosity
   std::vector<double> damage;                 ///< 0..1
   std::vector<double> plastic_strain;
   std::vector<double> bulking_pressure;  ///< Pa
   std::vector<double> step_limit;        ///< s, stable step of the element alone
   std::vector<double> alive;             ///< 1 living, 0 removed
 
-  POLYNYA_STATE(stress, volume, reference_volume, mass, internal_energy, hourglass_energy, viscous_energy, damage,
-                plastic_strain, bulking_pressure, step_limit, alive)
+  POLYNYA_STATE(stress, volume, reference_volume, mass, damage, plastic_strain, bulking_pressure, step_limit, alive)
 };
 
 /// Traction -rho c_p v_n A - rho c_s v_t A on the nodes of a boundary that waves should leave through.
@@ -92,30 +91,34 @@ struct ExplicitSolid {
   DampedNodes damped;
   double step_limit = 0;  ///< s, of the last internal_forces
 
-  // Bookkeeping of the energy account: see advance_velocities.
-  double kinetic_energy = 0, external_work = 0, boundary_flux = 0, removed_energy = 0, step_change = 0;
-  double pending_external_work = 0, pending_boundary_flux = 0, pending_step_change = 0;
+  // Bookkeeping of the energy account: see advance_velocities. internal_work: against the forces of the elements, all
+  // of them; hourglass_energy and viscous_energy are parts of it. Pending: half a step begun with the velocities of
+  // advance_velocities; whoever sets another velocity after it corrects internal and external work by the difference.
+  double kinetic_energy = 0, internal_work = 0, hourglass_energy = 0, viscous_energy = 0, external_work = 0,
+         boundary_flux = 0, removed_energy = 0, step_change = 0;
+  double pending_internal_work = 0, pending_external_work = 0, pending_boundary_flux = 0, pending_step_change = 0;
 
   // Internal to the kernels. Lanes are elements of one pack, W = compute::pack_width.
-  std::vector<std::int32_t> connectivity;   ///< [pack][8][W], 3 x node index; padding lanes repeat element 0
-  std::vector<double> natural_hourglass;    ///< [pack][12][W], hourglass shape of the reference element
-  std::vector<std::uint8_t> irregular;      ///< [pack], 1 if any lane is not a parallelepiped in the reference
-  std::vector<double> hourglass_stiffness;  ///< [e], N/m, undamaged
-  std::vector<double> exposure;             ///< [e], 0 (amid others) to 1 (alone): see element_step
-  std::vector<std::uint8_t> idle;           ///< [pack], 1 if every lane is dead and exerts no force
-  std::vector<double> element_force;        ///< [pack][24][W], N, on local node a, component i: row 3 a + i
-  std::vector<std::int32_t> gather_start;   ///< [n+1]
-  std::vector<std::int32_t> gather_slot;    ///< into element_force, component x; y and z follow at W and 2 W
+  std::vector<std::int32_t> connectivity;  ///< [pack][8][W], 3 x node index; padding lanes repeat element 0
+  std::vector<double> natural_hourglass;   ///< [pack][12][W], hourglass shape of the reference element
+  std::vector<std::uint8_t> irregular;     ///< [pack], 1 if any lane is not a parallelepiped in the reference
+  std::array<std::vector<double>, 3> hourglass_stiffness;  ///< [e], N/m, of the modes 4, 5, 6, undamaged
+  std::vector<double> exposure;                            ///< [e], 0 (amid others) to 1 (alone): see element_step
+  std::vector<std::uint8_t> idle;                          ///< [pack], 1 if every lane is dead
+  std::vector<std::uint8_t> complete;                      ///< [pack], 1 if every lane lives, 2 if amid others
+  ElementChunks chunks;                                    ///< how the elements are worked through
+  std::vector<NodeRecord> force_shares;                    ///< N, of the elements of one chunk on a node that it shares
+  std::vector<double> chunk_step_limit;                    ///< [chunk], s, smallest stable step of its elements
 
   std::size_t node_count() const { return masses.size(); }
   std::size_t element_count() const { return mesh.element_count(); }
 
-  POLYNYA_STATE_WITHOUT((name, law, numerics, connectivity, gather_start, gather_slot), name, mesh, law, numerics, time,
+  POLYNYA_STATE_WITHOUT((name, law, numerics, connectivity, chunks, force_shares), name, mesh, law, numerics, time,
                         positions, velocities, internal_force, masses, fixed, living_elements, element, damped,
-                        step_limit, kinetic_energy, external_work, boundary_flux, removed_energy, step_change,
-                        pending_external_work, pending_boundary_flux, pending_step_change, connectivity,
-                        natural_hourglass, irregular, hourglass_stiffness, exposure, idle, element_force, gather_start,
-                        gather_slot)
+                        step_limit, kinetic_energy, internal_work, hourglass_energy, viscous_energy, external_work,
+                        boundary_flux, removed_energy, step_change, pending_internal_work, pending_external_work,
+                        pending_boundary_flux, pending_step_change, connectivity, natural_hourglass, irregular,
+                        hourglass_stiffness, exposure, idle, complete, chunks, force_shares, chunk_step_limit)
 };
 
 /// A body at rest in its reference configuration. Throws std::invalid_argument naming the first element whose volume is
@@ -149,8 +152,8 @@ struct RemovedElement {
   double kinetic_energy = 0;         ///< J, of v(n+1/2); exactly what the account books as `removed`
 };
 
-/// Takes a living element and its mass out. Call between advance_velocities and advance_positions. Its stress, damage
-/// and energies stay readable; its last half step of work is booked by the next internal_forces.
+/// Takes a living element and its mass out. Call between advance_velocities and advance_positions. Its stress and
+/// damage stay readable; its last half step of work is booked by the next advance_velocities.
 RemovedElement remove_element(ExplicitSolid& solid, std::size_t element);
 
 /// Adds the nodes of a plane boundary (living elements' faces on it) to the damped nodes. Fix components first.

@@ -18,15 +18,14 @@ using Modes = std::array<std::array<T, 3>, 8>;
 template <class T>
 using NodalVectors = std::array<std::array<T, 3>, 8>;
 
-/// c_m = 1/8 sum_a H_m(a) n_a, for one component.
+/// 8 c_m = sum_a H_m(a) n_a, for one component.
 template <class T>
-POLYNYA_INLINE std::array<T, 8> modes_of(const std::array<T, 8>& n) {
+POLYNYA_INLINE std::array<T, 8> mode_sums_of(const std::array<T, 8>& n) {
   const T s0 = n[1] + n[0], s1 = n[2] + n[3], s2 = n[5] + n[4], s3 = n[6] + n[7];
   const T d0 = n[1] - n[0], d1 = n[2] - n[3], d2 = n[5] - n[4], d3 = n[6] - n[7];
   const T ss0 = s1 + s0, ss1 = s3 + s2, sd0 = s1 - s0, sd1 = s3 - s2;
   const T ds0 = d1 + d0, ds1 = d3 + d2, dd0 = d1 - d0, dd1 = d3 - d2;
-  return {0.125 * (ss1 + ss0), 0.125 * (ds1 + ds0), 0.125 * (sd1 + sd0), 0.125 * (ss1 - ss0),
-          0.125 * (sd1 - sd0), 0.125 * (ds1 - ds0), 0.125 * (dd1 + dd0), 0.125 * (dd1 - dd0)};
+  return {ss1 + ss0, ds1 + ds0, sd1 + sd0, ss1 - ss0, sd1 - sd0, ds1 - ds0, dd1 + dd0, dd1 - dd0};
 }
 
 /// n_a = sum_m c_m H_m(a), for one component.
@@ -39,15 +38,24 @@ POLYNYA_INLINE std::array<T, 8> nodal_values(const std::array<T, 8>& c) {
   return {s0 - d0, s0 + d0, s1 + d1, s1 - d1, s2 - d2, s2 + d2, s3 + d3, s3 - d3};
 }
 
+/// 8 c_m.
 template <class T>
-POLYNYA_INLINE Modes<T> modes_of(const NodalVectors<T>& nodal) {
+POLYNYA_INLINE Modes<T> mode_sums_of(const NodalVectors<T>& nodal) {
   Modes<T> result;
   for (int i = 0; i < 3; ++i) {
     std::array<T, 8> component;
     for (int a = 0; a < 8; ++a) component[a] = nodal[a][i];
-    component = modes_of(component);
+    component = mode_sums_of(component);
     for (int m = 0; m < 8; ++m) result[m][i] = component[m];
   }
+  return result;
+}
+/// c_m.
+template <class T>
+POLYNYA_INLINE Modes<T> modes_of(const NodalVectors<T>& nodal) {
+  Modes<T> result = mode_sums_of(nodal);
+  for (auto& mode : result)
+    for (T& component : mode) component *= 0.125;
   return result;
 }
 
@@ -84,13 +92,16 @@ struct Geometry {
 template <class T>
 POLYNYA_INLINE Geometry<T> geometry(const Modes<T>& c) {
   Geometry<T> g;
+  std::array<std::array<T, 3>, 4> third;  // of c4..c6, sign reversed
+  for (int m = 1; m <= 3; ++m)
+    for (int i = 0; i < 3; ++i) third[m][i] = (-1.0 / 3.0) * c[m + 3][i];
   const int next[] = {0, 2, 3, 1}, last[] = {0, 3, 1, 2};
   for (int m = 1; m <= 3; ++m) {
-    const auto &a = c[next[m]], &b = c[last[m]], &h = c[next[m] + 3], &k = c[last[m] + 3];
-    const auto faces = cross(a, b), twist = cross(h, k), first = cross(a, k), second = cross(h, b);
+    const auto &a = c[next[m]], &b = c[last[m]], &k = c[last[m] + 3], &h3 = third[next[m]], &k3 = third[last[m]];
+    const auto faces = cross(a, b), twist = cross(h3, k), first = cross(a, k3), second = cross(h3, b);
     for (int i = 0; i < 3; ++i) {
-      g.gradient[m][i] = faces[i] - (1.0 / 3.0) * twist[i];
-      g.gradient[m + 3][i] = (-1.0 / 3.0) * (first[i] + second[i]);
+      g.gradient[m][i] = faces[i] + twist[i];
+      g.gradient[m + 3][i] = first[i] + second[i];
     }
   }
   g.volume = 8.0 * (dot(c[1], g.gradient[1]) + dot(c[4], g.gradient[4]));
@@ -111,10 +122,11 @@ POLYNYA_INLINE Tensor<T> mean_gradient(const Modes<T>& velocity, const Geometry<
   return result;
 }
 
-/// Length whose crossing by a wave bounds the step, m: V / (4 sqrt(lambda)), lambda a bound on the largest eigenvalue
-/// of sum_m gradient gradient^T that is exact for bricks in any orientation (their shortest edge).
+/// Area that with the volume gives the length whose crossing by a wave bounds the step, m^2: 4 sqrt(lambda), lambda a
+/// bound on the largest eigenvalue of sum_m gradient gradient^T that is exact for bricks in any orientation (there the
+/// largest face).
 template <class T>
-POLYNYA_INLINE T shortest_length(const Geometry<T>& g) {
+POLYNYA_INLINE T largest_area(const Geometry<T>& g) {
   const auto magnitude = [](const T& x) { return maximum(x, T(-x)); };
   const T d12 = magnitude(dot(g.gradient[1], g.gradient[2]));
   const T d23 = magnitude(dot(g.gradient[2], g.gradient[3]));
@@ -125,7 +137,13 @@ POLYNYA_INLINE T shortest_length(const Geometry<T>& g) {
   const T twisted =
       dot(g.gradient[4], g.gradient[4]) + dot(g.gradient[5], g.gradient[5]) + dot(g.gradient[6], g.gradient[6]);
   const T largest = maximum(maximum(row1, row2), row3) + twisted;
-  return 0.25 * g.volume / square_root(maximum(largest, T(1e-290)));
+  return 4.0 * square_root(maximum(largest, T(1e-290)));
+}
+
+/// That length, m: for bricks the shortest edge.
+template <class T>
+POLYNYA_INLINE T shortest_length(const Geometry<T>& g) {
+  return g.volume / largest_area(g);
 }
 
 /// Modes of the nodal forces -sum_j stress_ij dV/dx_ja. stress: any tensor, row by row.

@@ -1,12 +1,15 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
 #include "core/compute/pack.hpp"
 #include "core/continuum/explicit_solid.hpp"
+#include "core/continuum/exposure.hpp"
 #include "core/continuum/hexahedron.hpp"
 #include "core/continuum/hourglass.hpp"
 #include "core/continuum/law.hpp"
+#include "core/continuum/nodal_lanes.hpp"
 
 /// One step of the elements of one pack (T a pack) or of one of its lanes (T double).
 namespace polynya::continuum {
@@ -32,6 +35,22 @@ POLYNYA_INLINE NodalVectors<T> nodal_vectors(const ExplicitSolid& solid, const s
   return result;
 }
 
+/// Motion of the nodes of a chunk, an eighth of it (exactly: so its sums are the modes), and what its elements give
+/// them.
+struct ChunkNodes {
+  std::vector<NodeRecord> position, velocity, force;
+};
+
+template <class T>
+POLYNYA_INLINE NodalVectors<T> nodal_vectors(const std::vector<NodeRecord>& nodes, const ElementChunks& chunks,
+                                             Place place) {
+  NodalVectors<T> result;
+#pragma GCC unroll 8
+  for (std::size_t a = 0; a < 8; ++a)
+    result[a] = gather_vectors<T>(nodes.data(), &chunks.connectivity[place.row(8, a)]);
+  return result;
+}
+
 template <class T>
 POLYNYA_INLINE PointState<T> load_state(const ElementState& element, std::size_t e) {
   PointState<T> state;
@@ -40,6 +59,21 @@ POLYNYA_INLINE PointState<T> load_state(const ElementState& element, std::size_t
   state.plastic_strain = load<T>(&element.plastic_strain[e]);
   state.bulking_pressure = load<T>(&element.bulking_pressure[e]);
   return state;
+}
+
+/// Asks for the state that comes up some packs later: the processor's own look-ahead ends with every page.
+template <class LawType>
+POLYNYA_INLINE void prefetch_state(const ExplicitSolid& solid, std::size_t pack) {
+  constexpr std::size_t ahead = 12;
+  const ElementState& element = solid.element;
+  const std::size_t e = std::min(pack + ahead, solid.idle.size() - 1) * compute::pack_width;
+  const auto fetch = [&](const auto& array, std::size_t index) { __builtin_prefetch(&array[index]); };
+  for (const auto& component : element.stress) fetch(component, e);
+  fetch(element.reference_volume, e), fetch(element.volume, e), fetch(element.step_limit, e);
+  for (const auto& mode : solid.hourglass_stiffness) fetch(mode, e);
+  fetch(solid.chunks.connectivity, 8 * e), fetch(solid.chunks.connectivity, 8 * e + 32);
+  if constexpr (!std::is_same_v<LawType, Elastic>)
+    fetch(element.damage, e), fetch(element.plastic_strain, e), fetch(element.bulking_pressure, e);
 }
 
 /// Bulk viscosity of von Neumann, Richtmyer and Landshoff, only in compression.
@@ -61,34 +95,35 @@ POLYNYA_INLINE BulkViscosity<T> bulk_viscosity(const Numerics& numerics, const T
 /// Largest stable step of an element, s. Modes in which an element and few neighbours breathe are stiffer than plane
 /// waves by up to 3 K / (K + 4 G/3); exposure (0..1) says how much of that its surroundings allow.
 template <class T>
-POLYNYA_INLINE T element_step(const T& bulk, double shear, const T& exposure, const T& density, const T& length,
+POLYNYA_INLINE T element_step(const T& bulk, double shear, const T& exposure, const T& specific_volume, const T& length,
                               const T& viscous_speed) {
   const T excess = maximum(T(2.0 * bulk - 4.0 / 3.0 * shear), T(0.0));
-  const T square = (bulk + 4.0 / 3.0 * shear + exposure * excess) / density;
+  const T square = (bulk + 4.0 / 3.0 * shear + exposure * excess) * specific_volume;
   return length / (viscous_speed + square_root(T(viscous_speed * viscous_speed + square)));
 }
 
-template <class T>
-POLYNYA_INLINE HourglassInput<T> hourglass_input(const ExplicitSolid& solid, std::size_t e, const T& damage,
-                                                 const T& flow, const T& area, const T& length, const T& wave_speed) {
-  const T rate = load<T>(&solid.element.mass[e]) * wave_speed / (64.0 * length);
-  return {load<T>(&solid.hourglass_stiffness[e]) * (1.0 - damage), solid.numerics.hourglass_viscosity * rate,
-          solid.numerics.hourglass_floor * rate, flow * area * (1.0 / 12.0)};
+/// What damage and plastic flow leave of the hourglass stiffness.
+template <class LawType, class T>
+POLYNYA_INLINE T hourglass_share(const Numerics& numerics, const LawType& law, const PointState<T>& state,
+                                 const T& flow) {
+  if constexpr (std::is_same_v<LawType, Elastic>) return T(1.0);
+  if (!any(state.plastic_strain > T(0.0))) return 1.0 - state.damage;
+  const T yields = maximum(flow, T(1e-290));  // plastic strain is measured by Y / 3 G
+  const T lost = minimum(T(1.0), T(3.0 * law.shear_modulus * state.plastic_strain / yields));
+  return (1.0 - state.damage) * (1.0 - (1.0 - numerics.hourglass_flowed) * lost);
 }
 
-/// Work of the old and the new nodal forces over the step, by the trapezoidal rule: what central differences take from
-/// the kinetic energy, to the last digit. Replaces the old forces by the new ones.
-template <class T>
-POLYNYA_INLINE T exchange_forces(ExplicitSolid& solid, Place place, const NodalVectors<T>& velocity,
-                                 const NodalVectors<T>& force, double dt) {
-  T power = T(0.0);
-  for (std::size_t a = 0; a < 8; ++a)
-    for (std::size_t i = 0; i < 3; ++i) {
-      double* slot = &solid.element_force[place.row(24, 3 * a + i)];
-      power += (load<T>(slot) + force[a][i]) * velocity[a][i];
-      store(force[a][i], slot);
-    }
-  return -0.5 * dt * power;
+template <class LawType, class T>
+POLYNYA_INLINE HourglassInput<T> hourglass_input(const ExplicitSolid& solid, const LawType& law, std::size_t e,
+                                                 const T& mass, const PointState<T>& state, const T& flow,
+                                                 const T& area, const T& inverse_length, const T& wave_speed) {
+  const T rate = (1.0 / 64.0) * mass * wave_speed * inverse_length;
+  HourglassInput<T> in{
+      {}, solid.numerics.hourglass_viscosity * rate, solid.numerics.hourglass_floor * rate, flow * area * (1.0 / 12.0)};
+  const T share = hourglass_share(solid.numerics, law, state, flow);
+  for (std::size_t m = 0; m < 3; ++m) in.stiffness[m] = share * load<T>(&solid.hourglass_stiffness[m][e]);
+  in.stiffness[3] = (1.0 / 3.0) * minimum(minimum(in.stiffness[0], in.stiffness[1]), in.stiffness[2]);
+  return in;
 }
 
 template <class T>
@@ -103,26 +138,34 @@ POLYNYA_INLINE void store_living(const T& value, std::vector<double>& array, std
   double* to = &array[e];
   store(all_live ? value : select(lives, value, load<T>(to)), to);
 }
+/// The same for what seldom changes: memory that is not written need not be written back.
 template <class T, class Mask>
-POLYNYA_INLINE void add_living(const T& value, std::vector<double>& array, std::size_t e, bool all_live,
-                               const Mask& lives) {
+POLYNYA_INLINE void store_changed(const T& value, std::vector<double>& array, std::size_t e, const Mask& lives) {
   double* to = &array[e];
   const T old = load<T>(to);
-  store(T(old + (all_live ? value : select(lives, value, T(0.0)))), to);
+  if (any(lives && value != old)) store(select(lives, value, old), to);
 }
 
-/// False if a living element is inverted or its stress is not finite.
+/// What the elements of a chunk add up, lane by lane.
+template <class T>
+struct ElementSums {
+  T hourglass{0.0}, viscous{0.0};  ///< J
+  T step_limit{1e300};             ///< s
+};
+
+/// One step of the elements at `place`: state, forces on the chunk's nodes, sums. False if a living element is inverted
+/// or its stress is not finite.
 template <class LawType, class T>
-bool advance_elements(ExplicitSolid& solid, const LawType& law, Place place, double dt) {
+POLYNYA_INLINE bool advance_elements(ExplicitSolid& solid, const LawType& law, Place place, double dt,
+                                     ChunkNodes& nodes, ElementSums<T>& sums) {
   ElementState& element = solid.element;
   const std::size_t e = place.element();
-  const auto lives = load<T>(&element.alive[e]) > T(0.5);
-  const bool all_live = !any(!lives);
+  const bool all_live = solid.complete[place.pack] != 0;
+  const auto lives = all_live ? T(1.0) > T(0.5) : load<T>(&element.alive[e]) > T(0.5);
   const Numerics& numerics = solid.numerics;
 
-  const auto velocity = nodal_vectors<T>(solid, solid.velocities, place);
-  const Modes<T> v = modes_of(velocity);
-  const Modes<T> x = modes_of(nodal_vectors<T>(solid, solid.positions, place));
+  const Modes<T> v = mode_sums_of(nodal_vectors<T>(nodes.velocity, solid.chunks, place));
+  const Modes<T> x = mode_sums_of(nodal_vectors<T>(nodes.position, solid.chunks, place));
   Modes<T> middle;
   for (int m = 1; m < 8; ++m)
     for (int i = 0; i < 3; ++i) middle[m][i] = x[m][i] - 0.5 * dt * v[m][i];
@@ -131,21 +174,24 @@ bool advance_elements(ExplicitSolid& solid, const LawType& law, Place place, dou
   const Geometry<T> half_way = geometry(middle);
   const Tensor<T> gradient = mean_gradient(v, half_way);
   const Geometry<T> now = geometry(x);
+  const T reference_volume = load<T>(&element.reference_volume[e]);
   PointState<T> state = load_state<T>(element, e);
-  state.relative_volume = now.volume / load<T>(&element.reference_volume[e]);
+  state.relative_volume = now.volume / reference_volume;
   state.stress = rotated(state.stress, hughes_winget_rotation(gradient, T(dt)));
   const T flow = advance_stress(law, state, strain_increment(gradient, T(dt)), T(dt));
 
   // Viscosity, hourglass control and the nodal forces, at the end of the step.
-  const T length = shortest_length(now);
-  const T density = load<T>(&element.mass[e]) / now.volume;
+  const T mass = law.density * reference_volume;
+  const T area = largest_area(now), length = now.volume / area;
+  const T inverse_volume = 1.0 / now.volume;
+  const T density = mass * inverse_volume;
   const T bulk = tangent_bulk_modulus(law, state);
   const T speed = wave_speed(law, state);
   const T expansion = gradient[0] + gradient[4] + gradient[8];
   const auto viscous = bulk_viscosity(numerics, expansion, length, speed, density);
-  const auto control = hourglass_input(solid, e, state.damage, flow, T(now.volume / length), length, speed);
+  const auto control = hourglass_input(solid, law, e, mass, state, flow, area, T(area * inverse_volume), speed);
 
-  std::array<std::array<T, 3>, 4> natural;
+  HourglassModes<T> natural;
   const bool irregular = solid.irregular[place.pack] != 0;
   if (irregular)
     for (std::size_t m = 0; m < 4; ++m)
@@ -155,7 +201,8 @@ bool advance_elements(ExplicitSolid& solid, const LawType& law, Place place, dou
   const T stiff_power = add_hourglass_stiffness(control, x, v, T(dt), irregular ? &natural : nullptr, hourglass_force);
   Tensor<T> stress = full_tensor(state.stress);
   for (int i = 0; i < 9; i += 4) stress[i] -= viscous.pressure;
-  const T viscous_power = add_hourglass_viscosity(control, x, middle, v, gradient, now.volume, hourglass_force, stress);
+  const T viscous_power =
+      add_hourglass_viscosity(control, x, middle, v, gradient, inverse_volume, hourglass_force, stress);
   Modes<T> force = stress_forces(stress, now);
   for (int m = 1; m < 8; ++m)
     for (int i = 0; i < 3; ++i) force[m][i] += hourglass_force[m][i];
@@ -163,24 +210,28 @@ bool advance_elements(ExplicitSolid& solid, const LawType& law, Place place, dou
   if (!all_live)
     for (auto& node : nodal_force)
       for (T& component : node) component = select(lives, component, T(0.0));
+#pragma GCC unroll 8
+  for (std::size_t a = 0; a < 8; ++a)
+    scatter_vectors<T>(nodal_force[a], nodes.force.data(), &solid.chunks.connectivity[place.row(8, a)]);
 
-  // Energies: the law's share is what the total leaves, so that the sum is exact.
-  const T total = exchange_forces(solid, place, velocity, nodal_force, dt);
-  const T hourglass = select(lives, T(dt * (stiff_power + viscous_power)), T(0.0));
-  const T shock = select(lives, T(-dt * viscous.pressure * expansion * half_way.volume), T(0.0));
-  store(T(load<T>(&element.internal_energy[e]) + total - hourglass - shock), &element.internal_energy[e]);
-  add_living(hourglass, element.hourglass_energy, e, all_live, lives);
-  add_living(shock, element.viscous_energy, e, all_live, lives);
+  const T hourglass = dt * (stiff_power + viscous_power);
+  const T shock = -dt * viscous.pressure * expansion * half_way.volume;
+  sums.hourglass += all_live ? hourglass : select(lives, hourglass, T(0.0));
+  sums.viscous += all_live ? shock : select(lives, shock, T(0.0));
 
   for (int c = 0; c < 6; ++c) store_living(state.stress[c], element.stress[c], e, all_live, lives);
   store_living(now.volume, element.volume, e, all_live, lives);
   if constexpr (!std::is_same_v<LawType, Elastic>) {
-    store_living(state.damage, element.damage, e, all_live, lives);
-    store_living(state.plastic_strain, element.plastic_strain, e, all_live, lives);
-    store_living(state.bulking_pressure, element.bulking_pressure, e, all_live, lives);
+    store_changed(state.damage, element.damage, e, lives);
+    store_changed(state.plastic_strain, element.plastic_strain, e, lives);
+    store_changed(state.bulking_pressure, element.bulking_pressure, e, lives);
   }
-  const T step = element_step(bulk, law.shear_modulus, load<T>(&solid.exposure[e]), density, length, viscous.speed);
-  store(select(lives, step, T(1e300)), &element.step_limit[e]);
+  const T exposure = solid.complete[place.pack] == 2 ? T(exposure_amid_others) : load<T>(&solid.exposure[e]);
+  T step = element_step(bulk, law.shear_modulus, exposure, T(state.relative_volume * (1 / law.density)), length,
+                        viscous.speed);
+  if (!all_live) step = select(lives, step, T(1e300));
+  store(step, &element.step_limit[e]);
+  sums.step_limit = minimum(sums.step_limit, step);
 
   const T trace = state.stress[0] + state.stress[1] + state.stress[2];
   const auto good = (now.volume > T(0.0)) && (half_way.volume > T(0.0)) && (trace * trace < T(1e300));

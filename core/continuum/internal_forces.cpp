@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 
 #include "core/continuum/bad_element.hpp"
@@ -35,29 +36,49 @@ void report_bad_element(const ExplicitSolid& solid, std::size_t first_pack) {
   throw BadElement(text, bad, centre, solid.time);
 }
 
-void gather_forces(ExplicitSolid& solid) {
-  const double* from = solid.element_force.data();
-  constexpr std::size_t w = compute::pack_width;
-  compute::for_chunks(solid.node_count(), 4096, [&](std::size_t begin, std::size_t end) {
+void stage_nodes(const ExplicitSolid& solid, std::size_t chunk, ChunkNodes& nodes) {
+  const ElementChunks& chunks = solid.chunks;
+  const std::int32_t* list = &chunks.nodes[chunks.start[chunk]];
+  const auto count = static_cast<std::size_t>(chunks.start[chunk + 1] - chunks.start[chunk]);
+  if (nodes.position.size() < count)
+    for (auto* records : {&nodes.position, &nodes.velocity, &nodes.force}) records->resize(count);
+  constexpr std::size_t ahead = 64;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::int32_t later = 3 * list[std::min(k + ahead, count - 1)];
+    __builtin_prefetch(&solid.positions[later]);
+    __builtin_prefetch(&solid.velocities[later]);
+    const double *x = &solid.positions[3 * list[k]], *v = &solid.velocities[3 * list[k]];
+    nodes.position[k].value = {0.125 * x[0], 0.125 * x[1], 0.125 * x[2], 0};
+    nodes.velocity[k].value = {0.125 * v[0], 0.125 * v[1], 0.125 * v[2], 0};
+    nodes.force[k].value = {};
+  }
+}
+
+void hand_out_forces(const ChunkNodes& nodes, std::size_t chunk, ExplicitSolid& solid) {
+  const ElementChunks& chunks = solid.chunks;
+  const std::int32_t* list = &chunks.nodes[chunks.start[chunk]];
+  const auto count = static_cast<std::size_t>(chunks.start[chunk + 1] - chunks.start[chunk]);
+  const auto alone = static_cast<std::size_t>(chunks.first_shared[chunk] - chunks.start[chunk]);
+  for (std::size_t k = 0; k < alone; ++k)
+    for (std::size_t i = 0; i < 3; ++i) solid.internal_force[3 * list[k] + i] = nodes.force[k].value[i];
+  std::copy(nodes.force.begin() + alone, nodes.force.begin() + count,
+            solid.force_shares.begin() + chunks.first_share[chunk]);
+}
+
+void add_shared_forces(ExplicitSolid& solid) {
+  const ElementChunks& chunks = solid.chunks;
+  compute::for_chunks(chunks.shared_nodes.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
-      double x = 0, y = 0, z = 0;
-      for (std::int32_t k = solid.gather_start[n]; k < solid.gather_start[n + 1]; ++k) {
-        const double* force = from + solid.gather_slot[k];
-        x += force[0];
-        y += force[w];
-        z += force[2 * w];
-      }
-      solid.internal_force[3 * n] = x;
-      solid.internal_force[3 * n + 1] = y;
-      solid.internal_force[3 * n + 2] = z;
+      std::array<double, 3> sum{};
+      for (std::int32_t k = chunks.share_start[n]; k < chunks.share_start[n + 1]; ++k)
+        for (std::size_t i = 0; i < 3; ++i) sum[i] += solid.force_shares[chunks.share_of[k]].value[i];
+      for (std::size_t i = 0; i < 3; ++i) solid.internal_force[3 * chunks.shared_nodes[n] + i] = sum[i];
     }
   });
 }
 
 void internal_forces(ExplicitSolid& solid, double dt) {
   std::visit([&](const auto& law) { advance_all_elements<compute::Pack>(solid, law, dt); }, solid.law);
-  gather_forces(solid);
-  solid.step_limit = stable_step(solid);
 }
 
 }  // namespace polynya::continuum

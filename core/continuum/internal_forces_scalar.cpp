@@ -4,8 +4,6 @@ namespace polynya::continuum {
 
 void internal_forces_scalar(ExplicitSolid& solid, double dt) {
   std::visit([&](const auto& law) { advance_all_elements<double>(solid, law, dt); }, solid.law);
-  gather_forces(solid);
-  solid.step_limit = stable_step(solid);
 }
 
 }  // namespace polynya::continuum

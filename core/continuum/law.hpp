@@ -44,8 +44,8 @@ void update_stress(const L& law, PointState<T>& state, const Tensor<T>& velocity
 /// Longitudinal wave speed of the point at its present state, m/s.
 template <class L, class T>
 POLYNYA_INLINE T wave_speed(const L& law, const PointState<T>& state) {
-  return square_root(
-      T((tangent_bulk_modulus(law, state) + 4.0 / 3.0 * law.shear_modulus) * state.relative_volume / law.density));
+  return square_root(T((tangent_bulk_modulus(law, state) + 4.0 / 3.0 * law.shear_modulus) * state.relative_volume *
+                       (1 / law.density)));
 }
 
 }  // namespace polynya::continuum

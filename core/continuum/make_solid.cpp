@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/compute/large_pages.hpp"
 #include "core/compute/pack.hpp"
 #include "core/continuum/exposure.hpp"
 #include "core/continuum/hexahedron_kernel.hpp"
@@ -23,54 +24,47 @@ void check_mesh(const std::string& name, const HexMesh& mesh) {
 void size_arrays(ExplicitSolid& solid) {
   const std::size_t nodes = solid.mesh.node_count(), elements = compute::padded(solid.element_count()),
                     packs = elements / w;
-  solid.positions = solid.mesh.nodes;
-  solid.velocities.assign(3 * nodes, 0.0);
-  solid.internal_force.assign(3 * nodes, 0.0);
+  for (auto* array : {&solid.positions, &solid.velocities, &solid.internal_force})
+    *array = compute::zeros_in_large_pages(3 * nodes);
+  std::copy(solid.mesh.nodes.begin(), solid.mesh.nodes.end(), solid.positions.begin());
   solid.masses.assign(nodes, 0.0);
   solid.fixed.assign(nodes, 0);
   solid.living_elements.assign(nodes, 0);
   ElementState& element = solid.element;
-  for (auto* array : {&element.volume, &element.mass, &element.internal_energy, &element.hourglass_energy,
-                      &element.viscous_energy, &element.damage, &element.plastic_strain, &element.bulking_pressure,
-                      &element.alive, &solid.hourglass_stiffness, &solid.exposure})
-    array->assign(elements, 0.0);
-  for (auto& component : element.stress) component.assign(elements, 0.0);
-  element.step_limit.assign(elements, 1e300);
-  element.reference_volume.assign(elements, 1.0);
+  for (auto* array :
+       {&element.volume, &element.mass, &element.damage, &element.plastic_strain, &element.bulking_pressure,
+        &element.alive, &solid.exposure, &element.step_limit, &element.reference_volume})
+    *array = compute::zeros_in_large_pages(elements);
+  for (auto& mode : solid.hourglass_stiffness) mode = compute::zeros_in_large_pages(elements);
+  for (auto& component : element.stress) component = compute::zeros_in_large_pages(elements);
+  std::fill(element.step_limit.begin(), element.step_limit.end(), 1e300);
+  std::fill(element.reference_volume.begin(), element.reference_volume.end(), 1.0);
   solid.natural_hourglass.assign(12 * elements, 0.0);
-  solid.element_force.assign(24 * elements, 0.0);
   solid.irregular.assign(packs, 0);
   solid.idle.assign(packs, 0);
+  solid.complete.assign(packs, 0);
   std::fill_n(element.alive.begin(), solid.element_count(), 1.0);
 }
 
 void number_connections(ExplicitSolid& solid) {
-  const std::size_t elements = solid.element_count(), nodes = solid.node_count();
+  const std::size_t elements = solid.element_count();
   solid.connectivity.resize(8 * compute::padded(elements));
-  solid.gather_start.assign(nodes + 1, 0);
   for (std::size_t e = 0; e < compute::padded(elements); ++e)
     for (std::size_t a = 0; a < 8; ++a)
       solid.connectivity[(e / w * 8 + a) * w + e % w] = 3 * solid.mesh.elements[8 * (e < elements ? e : 0) + a];
-  for (std::int32_t n : solid.mesh.elements) ++solid.gather_start[n + 1];
-  for (std::size_t n = 0; n < nodes; ++n) {
-    solid.living_elements[n] = static_cast<std::uint8_t>(solid.gather_start[n + 1]);
-    solid.gather_start[n + 1] += solid.gather_start[n];
-  }
-  solid.gather_slot.resize(8 * elements);
-  std::vector<std::int32_t> next(solid.gather_start.begin(), solid.gather_start.end() - 1);
-  for (std::size_t e = 0; e < elements; ++e)
-    for (std::size_t a = 0; a < 8; ++a)
-      solid.gather_slot[next[solid.mesh.elements[8 * e + a]]++] =
-          static_cast<std::int32_t>((e / w * 24 + 3 * a) * w + e % w);
+  solid.chunks = make_chunks(solid.mesh);
+  solid.force_shares.assign(static_cast<std::size_t>(solid.chunks.shares), {});
+  solid.chunk_step_limit.assign(solid.chunks.chunk_count(), 1e300);
+  for (std::int32_t n : solid.mesh.elements) ++solid.living_elements[n];
 }
 
-/// Hourglass shape of the reference in the base of its half edges, and Flanagan & Belytschko's stiffness
-/// kappa/16 (K + 4 G/3) sum b.b / V, b = dV/dx of the nodes.
-void shape_hourglass(ExplicitSolid& solid, std::size_t e, const Modes<double>& c, const Geometry<double>& g,
-                     double modulus) {
-  double squares = 0;
-  for (int m = 1; m <= 6; ++m) squares += 8 * dot(g.gradient[m], g.gradient[m]);
-  solid.hourglass_stiffness[e] = solid.numerics.hourglass_stiffness / 16 * modulus * squares / g.volume;
+/// Hourglass shape of the reference in the base of its half edges, and the stiffness of bending: see hourglass.hpp.
+void shape_hourglass(ExplicitSolid& solid, std::size_t e, const Modes<double>& c, double volume, double young) {
+  for (std::size_t m = 0; m < 3; ++m) {
+    const auto &one = c[(m + 1) % 3 + 1], &other = c[(m + 2) % 3 + 1];
+    solid.hourglass_stiffness[m][e] =
+        solid.numerics.hourglass_stiffness * young * volume / (192 * std::max(dot(one, one), dot(other, other)));
+  }
   const double triple = dot(c[1], cross(c[2], c[3]));
   for (std::size_t m = 0; m < 4; ++m) {
     const std::array<double, 3> natural{dot(c[m + 4], cross(c[2], c[3])) / triple,
@@ -85,7 +79,9 @@ void shape_hourglass(ExplicitSolid& solid, std::size_t e, const Modes<double>& c
 }
 
 void set_elements(ExplicitSolid& solid) {
-  const double modulus = density(solid.law) * std::pow(longitudinal_wave_speed(solid.law), 2);
+  const Elastic elastic = elastic_part(solid.law);
+  const double young =
+      9 * elastic.bulk_modulus * elastic.shear_modulus / (3 * elastic.bulk_modulus + elastic.shear_modulus);
   for (std::size_t e = 0; e < solid.element_count(); ++e) {
     const auto c = modes_of(nodal_vectors<double>(solid, solid.mesh.nodes, {e / w, e % w}));
     const auto g = geometry(c);
@@ -97,7 +93,7 @@ void set_elements(ExplicitSolid& solid) {
                                   " m^3; its nodes must be in VTK's order");
     }
     solid.element.reference_volume[e] = g.volume;
-    shape_hourglass(solid, e, c, g, modulus);
+    shape_hourglass(solid, e, c, g.volume, young);
     update_exposure(solid, e);
   }
 }
@@ -125,8 +121,6 @@ ExplicitSolid make_solid(std::string name, HexMesh mesh, Law law, Numerics numer
     for (std::size_t a = 0; a < 8; ++a) solid.masses[solid.mesh.elements[8 * e + a]] += 0.125 * solid.element.mass[e];
   }
   internal_forces(solid, 0.0);
-  for (auto* array : {&solid.element.internal_energy, &solid.element.hourglass_energy, &solid.element.viscous_energy})
-    std::fill(array->begin(), array->end(), 0.0);
   return solid;
 }
 

@@ -118,6 +118,9 @@ void add_boundary_traction(ExplicitSolid& solid, std::span<const double> externa
       if (solid.fixed[n] >> i & 1) continue;
       solid.external_work += 0.5 * dt_previous * held[i] * old[i];
       solid.pending_external_work += 0.5 * dt_next * held[i] * now[i];
+      // advance_velocities books the work of all that stands in internal_force as that of the elements.
+      solid.internal_work += 0.5 * dt_previous * (traction[i] + held[i]) * old[i];
+      solid.pending_internal_work += 0.5 * dt_next * (traction[i] + held[i]) * now[i];
       internal[i] += traction[i] + held[i];
     }
   }

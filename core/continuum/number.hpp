@@ -84,6 +84,21 @@ POLYNYA_INLINE void store(const T& value, double* to) {
     *to = value;
 }
 
+POLYNYA_INLINE double sum_of_lanes(double x) {
+  return x;
+}
+template <PackNumber T>
+POLYNYA_INLINE double sum_of_lanes(const T& x) {
+  return stdx::reduce(x);
+}
+POLYNYA_INLINE double smallest_lane(double x) {
+  return x;
+}
+template <PackNumber T>
+POLYNYA_INLINE double smallest_lane(const T& x) {
+  return stdx::hmin(x);
+}
+
 /// from[index[lane]] for each lane.
 template <class T>
 POLYNYA_INLINE T gather(const double* from, const std::int32_t* index) {
