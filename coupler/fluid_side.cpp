@@ -110,6 +110,7 @@ void add_cells(exchange::Message& message, const geometry::CutCells& cut, const 
   for (const geometry::WallPiece& piece : cut.pieces)
     size[static_cast<std::size_t>(piece.entry)] += contact::norm(piece.area);
   add_column(message, "wall_size", rows(size, walled));
+  message.add("wall_sweep", {walls, body_count}, rows(cut.wall_sweep, walled, body_count));
 }
 
 void add_faces(exchange::Message& message, const std::string& name, const geometry::CutFaces& faces) {

@@ -69,12 +69,14 @@ void CutGeometry::set(const Grid& grid, const std::array<Boundary, 6>& boundary,
     const double free = room - debris;
     volume[c] = free < void_fraction * full ? 0.0 : free;
     cells_.push_back(c);
-    WallPiece piece{.cell = c, .debris = debris, .area = {}, .velocity = {}, .size = 0};
+    WallPiece piece{.cell = c, .debris = debris, .area = {}, .velocity = {}, .size = 0, .sweep = {}};
     for (int body = 0; body < 2; ++body) {
       for (int axis = 0; axis < 3; ++axis) {
         piece.area[body][axis] = overlap.wall_area[6 * m + 3 * body + axis];
         piece.velocity[body][axis] = overlap.wall_velocity[6 * m + 3 * body + axis];
+        piece.sweep[body] += piece.area[body][axis] * piece.velocity[body][axis];
       }
+      if (!overlap.wall_sweep.empty()) piece.sweep[body] = overlap.wall_sweep[2 * m + body];
     }
     for (const auto& [x, y, z] : piece.area) piece.size += std::hypot(x, y, z);
     if (!overlap.wall_size.empty()) piece.size = overlap.wall_size[m];

@@ -17,6 +17,7 @@ struct WallPiece {
   std::array<std::array<double, 3>, 2> area{};      ///< per body, into the body, m^2
   std::array<std::array<double, 3>, 2> velocity{};  ///< m/s
   double size = 0;                                  ///< m^2 of both bodies' wall, whichever way it faces
+  std::array<double, 2> sweep{};                    ///< volume given way per time, m^3/s
 };
 
 /// What the solids leave to the fluid at one time: free volume of cells, open fraction of faces, and the free fraction

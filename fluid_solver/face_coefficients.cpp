@@ -22,6 +22,14 @@ std::vector<StepWall> join_walls(const CutGeometry& before, const CutGeometry& a
       // A wall that has just left the cell moved with the velocity it was last seen to have.
       const WallPiece* source = new_piece && (seen > 0 || !old_piece) ? new_piece : old_piece ? old_piece : new_piece;
       wall.velocity[body] = source->velocity[body];
+      // Both areas move with the velocities of this step.
+      if (new_piece) wall.sweep[body] += 0.5 * new_piece->sweep[body];
+      if (old_piece) {
+        wall.sweep[body] += 0.5 * old_piece->sweep[body];
+        for (int axis = 0; axis < 3; ++axis)
+          wall.sweep[body] +=
+              0.5 * old_piece->area[body][axis] * (wall.velocity[body][axis] - old_piece->velocity[body][axis]);
+      }
     }
     walls.push_back(wall);
   };

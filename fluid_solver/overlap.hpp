@@ -19,8 +19,12 @@ struct Overlap {
   std::vector<double> wall_area;                  ///< [m][2][3] area vector of each body, pointing into the body, m^2
   std::vector<double> wall_velocity;              ///< [m][2][3] mean velocity of that piece of wall, m/s
   std::vector<double> wall_size;  ///< [m] m^2 of wall whichever way it faces; empty: the lengths of wall_area
+  /// [m][2] volume that the wall gives way per time, m^3/s: the integral of velocity over area, which the product of
+  /// the two misses where parts of the wall move apart. Empty: the product.
+  std::vector<double> wall_sweep;
 
-  POLYNYA_STATE(cell, solid_volume, debris_volume, face, face_solid, walled, wall_area, wall_velocity, wall_size)
+  POLYNYA_STATE(cell, solid_volume, debris_volume, face, face_solid, walled, wall_area, wall_velocity, wall_size,
+                wall_sweep)
 };
 
 }  // namespace polynya::fluid

@@ -88,6 +88,11 @@ void read_walls(const exchange::Message& message, Overlap& overlap) {
   overlap.wall_area.assign(6 * overlap.cell.size(), 0.0);
   overlap.wall_velocity.assign(6 * overlap.cell.size(), 0.0);
   overlap.wall_size.assign(overlap.cell.size(), 0.0);
+  std::span<const double> sweep;
+  if (message.has("wall_sweep")) {
+    sweep = values(message, "wall_sweep", 2 * walls.size());
+    overlap.wall_sweep.assign(2 * overlap.cell.size(), 0.0);
+  }
   auto at = overlap.cell.begin();
   for (std::size_t w = 0; w < walls.size(); ++w) {
     at = std::lower_bound(at, overlap.cell.end(), walls[w]);
@@ -97,6 +102,7 @@ void read_walls(const exchange::Message& message, Overlap& overlap) {
     std::copy_n(&area[6 * w], 6, &overlap.wall_area[6 * m]);
     std::copy_n(&velocity[6 * w], 6, &overlap.wall_velocity[6 * m]);
     overlap.wall_size[static_cast<std::size_t>(m)] = size[w];
+    if (!sweep.empty()) std::copy_n(&sweep[2 * w], 2, &overlap.wall_sweep[2 * m]);
   }
 }
 

@@ -143,9 +143,7 @@ class Projection {
     face_rates(f_, f_.velocity, f_.face_rate);
     sum_rates(out, 1.0);
     for (const WallPiece& wall : f_.after.walls) {
-      for (int body = 0; body < 2; ++body) {
-        for (int d = 0; d < 3; ++d) out[wall.cell] += wall.area[body][d] * wall.velocity[body][d];
-      }
+      out[wall.cell] += wall.sweep[0] + wall.sweep[1];
     }
     gather_groups(out);
     for (std::size_t c = 0; c < out.size(); ++c) out[c] *= unknown_[c];
@@ -155,10 +153,7 @@ class Projection {
   double wall_rates() const {
     double sum = 0;
     for (const WallPiece& wall : f_.after.walls) {
-      double rate = 0;
-      for (int body = 0; body < 2; ++body) {
-        for (int d = 0; d < 3; ++d) rate += wall.area[body][d] * wall.velocity[body][d];
-      }
+      const double rate = wall.sweep[0] + wall.sweep[1];
       sum += rate * rate;
     }
     return sum;

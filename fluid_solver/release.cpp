@@ -1,7 +1,5 @@
 // Room that breaking solids leave at once. What debris takes up elsewhere, the volume correction hands on; only the net
 // gain becomes an empty room, which the water fills in its own time and without work done on it.
-#include <algorithm>
-
 #include "fluid_solver/phases.hpp"
 
 namespace polynya::fluid {
@@ -20,7 +18,8 @@ double release_room(const Grid& grid, CutGeometry& before, const CutGeometry& af
     gained += jump(wall);
   }
   if (!(gained > 0) || !(net > 1e-9 * gained)) return 0;
-  const double share = std::min(1.0, net / gained);
+  // What falls short of a jump in other cells belongs to it too: none of the net gain is left to be felt as pressure.
+  const double share = net / gained;
   double released = 0;
   for (const StepWall& wall : walls) {
     const double room = share * jump(wall);

@@ -7,10 +7,11 @@
 
 namespace polynya::fluid {
 
-/// Wall pieces of one step: mean area vectors and the velocity of the motion.
+/// Wall pieces of one step: mean area vectors, the velocity of the motion, and the volume they give way per time.
 struct StepWall {
   std::ptrdiff_t cell = 0;
   std::array<std::array<double, 3>, 2> area{}, velocity{};
+  std::array<double, 2> sweep{};  ///< m^3/s
 };
 
 /// Mean areas times wall velocity miss the true change of a cell's free volume, by much where a wall crosses a face of

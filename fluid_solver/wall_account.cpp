@@ -15,9 +15,9 @@ void book_walls(Fluid& fluid, double dt, const std::vector<StepWall>& walls, con
     for (int body = 0; body < 2; ++body) {
       for (int axis = 0; axis < 3; ++axis) {
         account.body_impulse[body][axis] += dt * wall_pressure(fluid, wall.cell) * wall.area[body][axis];
-        account.wall_work[body] += dt * p * wall.area[body][axis] * wall.velocity[body][axis];
-        account.swept_volume[body] += dt * wall.area[body][axis] * wall.velocity[body][axis];
       }
+      account.wall_work[body] += dt * p * wall.sweep[body];
+      account.swept_volume[body] += dt * wall.sweep[body];
     }
     account.swept_defect += p * unexplained_change(wall, fluid.before, fluid.after, dt);
   }

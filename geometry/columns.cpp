@@ -107,7 +107,10 @@ class ColumnWalk {
     const std::int32_t* vertex = bodies_[b].triangles.data() + 3 * static_cast<std::size_t>(piece.triangle);
     for (std::size_t c = 0; c < 3; ++c) {
       const double* velocity = bodies_[b].velocities.data() + 3 * static_cast<std::size_t>(vertex[c]);
-      for (std::size_t d = 0; d < 3; ++d) s.weighted_velocity[d] += wall * piece.weights[c] * velocity[d];
+      for (std::size_t d = 0; d < 3; ++d) {
+        s.weighted_velocity[d] += wall * piece.weights[c] * velocity[d];
+        s.sweep += piece.area[d] * piece.weights[c] * velocity[d];
+      }
     }
     for (std::size_t d = 0; d < 3; ++d) s.area[d] += piece.area[d];
   }
@@ -138,7 +141,7 @@ class ColumnWalk {
         chunk_.uncertain.push_back({{i_, j_, k, count}, static_cast<std::int32_t>(b)});
       chunk_.cells.values.insert(chunk_.cells.values.end(),
                                  {solid, s.area[0], s.area[1], s.area[2], per_wall * s.weighted_velocity[0],
-                                  per_wall * s.weighted_velocity[1], per_wall * s.weighted_velocity[2]});
+                                  per_wall * s.weighted_velocity[1], per_wall * s.weighted_velocity[2], s.sweep});
     }
     if (present == 0) {
       chunk_.uncertain.resize(doubted);

@@ -36,8 +36,8 @@ struct Rows {
   void sort(std::size_t levels);
 };
 
-/// Values of a cell per body: fraction of its volume, outward area vector, velocity.
-inline constexpr std::size_t cell_stride = 7;
+/// Values of a cell per body: fraction of its volume, outward area vector, velocity, volume swept outward per time.
+inline constexpr std::size_t cell_stride = 8;
 
 /// Solid area of a face (m^2, signed) by which the sum over bodies leaves [0, area of the face].
 struct FaceExcess {
@@ -54,7 +54,7 @@ struct ColumnShade {
 /// Sums of the records of one body in one cell.
 struct CellSum {
   std::array<double, 3> area{}, weighted_velocity{};
-  double wall = 0, height_moment = 0;
+  double wall = 0, sweep = 0, height_moment = 0;
   double x_extent = 0, x_moment = 0, y_extent = 0, y_moment = 0;
 };
 

@@ -56,9 +56,12 @@ struct CutCells {
   std::vector<double> wall_area;  ///< [entries][bodies][3], m^2, INTO the body; summed over the bodies it equals the
                                   ///< sum over the cell's faces of solid fraction * outward face vector
   std::vector<double> wall_velocity;  ///< [entries][bodies][3], m/s, mean over the wall in the cell; 0 without wall
-  std::vector<std::uint8_t> walled;   ///< [entries], 1: `pieces` has pieces of the entry
-  std::array<CutFaces, 3> faces;      ///< normal to x, y, z
-  std::vector<WallPiece> pieces;      ///< sum of area per entry and body = -wall_area; mostly in the order of triangles
+  /// [entries][bodies], m^3/s, volume the wall gives way per time: the integral of velocity over area INTO the body.
+  /// The product of area and mean velocity misses it where parts of the wall move apart, as cracks that open do.
+  std::vector<double> wall_sweep;
+  std::vector<std::uint8_t> walled;  ///< [entries], 1: `pieces` has pieces of the entry
+  std::array<CutFaces, 3> faces;     ///< normal to x, y, z
+  std::vector<WallPiece> pieces;     ///< sum of area per entry and body = -wall_area; mostly in the order of triangles
 
   std::vector<UncertainVolume> uncertain;  ///< by cell; see recut_uncertain (exact_cut.hpp)
 
@@ -68,8 +71,9 @@ struct CutCells {
   std::int64_t loose_edges = 0;        ///< open edges of the surfaces away from the walls of the grid: should be 0
   double squeezed_volume = 0;          ///< m^3 of debris that found no room
 
-  POLYNYA_STATE(bodies, cell, solid_volume, debris_volume, body_volume, wall_area, wall_velocity, walled, faces, pieces,
-                uncertain, shared_cells, overlapping_cells, corrected_faces, loose_edges, squeezed_volume)
+  POLYNYA_STATE(bodies, cell, solid_volume, debris_volume, body_volume, wall_area, wall_velocity, wall_sweep, walled,
+                faces, pieces, uncertain, shared_cells, overlapping_cells, corrected_faces, loose_edges,
+                squeezed_volume)
 };
 
 template <class Number>

@@ -39,6 +39,7 @@ void scatter_cells(const GridLines& grid, Rows& rows, CutCells& out) {
         const double* value = values + b * cell_stride;
         total += value[0];
         out.body_volume[at * bodies + b] = value[0] * volume;
+        out.wall_sweep[at * bodies + b] = -value[7];
         for (std::size_t d = 0; d < 3; ++d) {
           out.wall_area[(at * bodies + b) * 3 + d] = -value[1 + d];
           out.wall_velocity[(at * bodies + b) * 3 + d] = value[4 + d];
@@ -89,6 +90,7 @@ void resize(CutCells& out, std::size_t entries) {
   out.body_volume.resize(entries * out.bodies);
   out.wall_area.resize(entries * out.bodies * 3);
   out.wall_velocity.resize(entries * out.bodies * 3);
+  out.wall_sweep.resize(entries * out.bodies);
   out.walled.resize(entries);
 }
 

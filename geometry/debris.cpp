@@ -174,6 +174,7 @@ void DebrisDeposit::insert_entries(CutCells& out) {
     spread_rows(out.body_volume, out.bodies, moved_, row);
     spread_rows(out.wall_area, 3 * out.bodies, moved_, row);
     spread_rows(out.wall_velocity, 3 * out.bodies, moved_, row);
+    spread_rows(out.wall_sweep, out.bodies, moved_, row);
     spread_rows(out.walled, 1, moved_, row);
     for (WallPiece& piece : out.pieces) piece.entry = moved_[static_cast<std::size_t>(piece.entry)];
   }

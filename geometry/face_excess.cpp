@@ -71,9 +71,11 @@ void correct_excess(const GridLines& grid, const std::vector<FaceExcess>& excess
     WallPiece extra = out.pieces[static_cast<std::size_t>(c.piece)];
     extra.area = c.area;
     out.pieces.push_back(extra);
-    double* wall = out.wall_area.data() +
-                   (static_cast<std::size_t>(c.entry) * out.bodies + static_cast<std::size_t>(extra.body)) * 3;
-    for (std::size_t d = 0; d < 3; ++d) wall[d] -= c.area[d];
+    const std::size_t at = static_cast<std::size_t>(c.entry) * out.bodies + static_cast<std::size_t>(extra.body);
+    for (std::size_t d = 0; d < 3; ++d) {
+      out.wall_area[3 * at + d] -= c.area[d];
+      out.wall_sweep[at] -= c.area[d] * out.wall_velocity[3 * at + d];
+    }
   }
 }
 

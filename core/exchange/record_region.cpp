@@ -102,7 +102,7 @@ const RecordRegion::Mask* RecordRegion::mask_for(const std::string& name) const 
   if (name == "surface.triangles") return &triangles_;
   if (is_one_of(name, {"load.vertices", "load.forces"})) return &loads_;
   if (is_one_of(name, {"cell", "solid_volume", "debris_volume"})) return &cells_;
-  if (is_one_of(name, {"wall", "wall_area", "wall_velocity"})) return &walls_;
+  if (is_one_of(name, {"wall", "wall_area", "wall_velocity", "wall_size", "wall_sweep"})) return &walls_;
   for (int axis = 0; axis < 3; ++axis)
     if (name.starts_with(face_names[axis])) return &faces_[axis];
   if (name.starts_with("pressure.previous_")) return &walls_before_;

@@ -176,6 +176,35 @@ TEST(Motion, DebrisPressesWaterAsideAndIsBooked) {
   EXPECT_NE(fluid.account.swept_defect, 0);
 }
 
+TEST(Motion, SolidThatSwellsWithinACellDoesTheWorkOfItsSides) {
+  // Its sides move apart, so its area and its mean velocity are none; the closed box feels what they sweep.
+  Fluid fluid = cube(8, Boundary::wall);
+  const double cell = side * side * side / 512, rate = 500 * cell;  // m^3/s
+  const auto swelling = [&](double time) {
+    Overlap overlap;
+    overlap.cell = {3 + 8 * (3 + 8 * 3)};
+    overlap.solid_volume = {0.1 * cell + rate * time};
+    overlap.debris_volume = {0};
+    overlap.wall_area.assign(6, 0);
+    overlap.wall_velocity.assign(6, 0);
+    overlap.wall_sweep = {0, -rate};
+    return overlap;
+  };
+  fill_hydrostatic(fluid, swelling(0), 1.0);
+  const Account start = fluid.account;
+  const double dt = 3e-7, free = side * side * side - 0.1 * cell;
+  const double stiffness = fluid.bulk_modulus[fluid.grid.at(2, 2, 2)];
+  while (fluid.time < 0.0006) step(fluid, dt, swelling(fluid.time + dt));
+  const double swept = rate * fluid.time, rise = stiffness * swept / free;
+  EXPECT_NEAR(fluid.account.swept_volume[1], -swept, 1e-9 * swept);
+  // What one cell pushes out costs more than the compression alone: the flow away from it, and its viscosity.
+  const double compression = (101325 + rise / 2) * swept;
+  EXPECT_GT(-fluid.account.wall_work[1], compression);
+  EXPECT_LT(-fluid.account.wall_work[1], 1.1 * compression);
+  EXPECT_NEAR(fluid.account.swept_defect, 0, 1e-6 * compression);
+  EXPECT_NEAR(fluid.account.energy_sum(), start.energy_sum(), 1e-9 * compression);
+}
+
 TEST(Motion, IceThatBecomesDebrisSendsOutNoShock) {
   // A submerged block of solid cells turns into as much debris, most of it in its own cells, some beside it.
   Fluid fluid = cube(10, Boundary::non_reflecting);
@@ -211,6 +240,32 @@ TEST(Motion, IceThatBecomesDebrisSendsOutNoShock) {
   EXPECT_LT(worst, 1000.0);  // Pa; the water's stiffness times the moved part of a cell would be 1e8
   EXPECT_NEAR(books(fluid.account).energy, start.energy, 1e-12);
   EXPECT_NEAR(books(fluid.account).mass[water], start.mass[water], 1e-12 * start.mass[water]);
+}
+
+TEST(Motion, RoomIsHandedOnAlongALongWallWithoutAPulse) {
+  // Debris goes from one end of a column of cells to the other in one step: all the water between makes way.
+  constexpr int length = 260;
+  const double h = 0.002;
+  polynya::fluid::Setup setup;
+  setup.boundary.fill(Boundary::wall);
+  Fluid fluid(Grid(even_line(0, 3 * h, 3), even_line(0, 3 * h, 3), even_line(0, length * h, length)), setup);
+  const auto debris = [&](double lower, double upper, double between) {
+    Overlap overlap;
+    for (int k = 0; k < length; ++k) {
+      overlap.cell.push_back(1 + 3 * (1 + 3 * k));
+      overlap.debris_volume.push_back((k == 0 ? lower : k == length - 1 ? upper : between) * h * h * h);
+    }
+    overlap.solid_volume.assign(length, 0);
+    overlap.wall_area.assign(6 * length, 0);
+    overlap.wall_velocity.assign(6 * length, 0);
+    return overlap;
+  };
+  fill_hydrostatic(fluid, debris(0.04, 0.08, 0.05), 1.0);
+  const Books start = books(fluid.account);
+  step(fluid, 3e-7, debris(0.08, 0.04, 0.05 + 1e-9));
+  step(fluid, 3e-7, debris(0.08, 0.04, 0.05 + 1e-9));
+  EXPECT_LT(largest_pressure_change(fluid), 100.0);  // Pa; 1e-7 of the room times the water's stiffness is as much
+  EXPECT_NEAR(books(fluid.account).energy, start.energy, 1e-12);
 }
 
 TEST(Motion, SealedPocketKeepsItsMass) {

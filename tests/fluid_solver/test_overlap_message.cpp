@@ -67,6 +67,16 @@ TEST(FluidOverlapMessage, OnlyTheCellsNamedHaveWall) {
   EXPECT_EQ(read.wall_size, (Numbers{0, 0, 0, 0, 0, 3}));
 }
 
+TEST(FluidOverlapMessage, WallsThatDoNotSayWhatTheySweepMoveAsOnePiece) {
+  exchange::Message message = overlap();
+  EXPECT_TRUE(read_overlap(message, grid()).wall_sweep.empty());
+  message.add<double>("wall_sweep", {1, 2}, Numbers{0.3, -0.1});
+  EXPECT_EQ(read_overlap(message, grid()).wall_sweep, (Numbers{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.3, -0.1}));
+  exchange::Message longer = overlap();
+  longer.add<double>("wall_sweep", {3, 1}, Numbers{0.3, -0.1, 0.0});
+  EXPECT_THROW(read_overlap(longer, grid()), exchange::ProtocolError);
+}
+
 TEST(FluidOverlapMessage, RunsOfFacesAreClosed) {
   const Overlap read = read_overlap(overlap(), grid());
   for (int axis = 0; axis < 3; ++axis) {
