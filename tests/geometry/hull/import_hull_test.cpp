@@ -172,6 +172,54 @@ TEST(ImportHull, AnEdgeOfThreeTrianglesIsRefusedWithItsPlace) {
   expect_words(refusal(path), {path, "not manifold: 1 edge(s) with more than two triangles", "near ("});
 }
 
+/// A wrap lies outside, and no farther than it says: it adds at most a layer of that thickness (area in mm^2).
+void expect_wrapped(const std::string& path, double exact, double area, double diagonal) {
+  const ImportedHull wrapped = import_hull(path, {.scale = 1e-3, .repair = Repair::wrap});
+  std::printf("wrap %.4f mm away, volume %.4f of the exact one\n", wrapped.wrapped_distance * 1e3,
+              wrapped.solid.volume / (1e-9 * exact));
+  EXPECT_GT(wrapped.solid.volume, 1e-9 * exact);
+  EXPECT_LT(wrapped.solid.volume, 1e-9 * exact + 1e-6 * area * wrapped.wrapped_distance);
+  EXPECT_GT(wrapped.wrapped_distance, 0);
+  // Corners of the wrap lie at its offset (alpha / 30), and its triangles have circumradii of at most alpha.
+  EXPECT_LT(wrapped.wrapped_distance, 1e-3 * 0.02 * diagonal * (1 + 1.0 / 30));
+  expect_words(wrapped.note, {"Wrapped, as asked for, because: the surface"});
+}
+
+TEST(ImportHull, ASheetOnAHullIsWrappedAsAThinFin) {
+  Shape hull = shapes::box(1);
+  shapes::scale_and_move(hull, {5, 5, 40}, {0, 0, 0});
+  const shapes::Vector a = hull.vertex(hull.triangles[0]), b = hull.vertex(hull.triangles[1]);
+  const shapes::Vector tip{2 * (a[0] + b[0]), 2 * (a[1] + b[1]), a[2]};
+  hull.triangles.insert(hull.triangles.end(), {hull.triangles[0], hull.triangles[1], shapes::add_vertex(hull, tip)});
+  double square = 0;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::size_t e = (d + 1) % 3, f = (d + 2) % 3;
+    const double part = (b[e] - a[e]) * (tip[f] - a[f]) - (b[f] - a[f]) * (tip[e] - a[e]);
+    square += part * part;
+  }
+  const double both_sides = std::sqrt(square);
+  expect_wrapped(write_text_stl("fin.stl", hull), 10 * 10 * 80, 2 * 10 * 10 + 4 * 10 * 80 + both_sides,
+                 std::hypot(10, 15, 80));
+}
+
+TEST(ImportHull, TwoPrismsThatShareAnEdgeAreRefusedOrWrapped) {
+  Shape one = shapes::box(1), other = shapes::box(1);
+  shapes::scale_and_move(one, {5, 5, 40}, {0, 0, 0});
+  shapes::scale_and_move(other, {5, 5, 40}, {10, 10, 0});
+  const std::string path = write_text_stl("edge.stl", joined(one, other));
+  expect_words(refusal(path), {path, "not manifold: 1 edge(s) with more than two triangles", "near (5, 5, 0)"});
+  expect_wrapped(path, 2 * 10 * 10 * 80, 2 * (2 * 10 * 10 + 4 * 10 * 80), std::hypot(20, 20, 80));
+}
+
+TEST(ImportHull, TwoPrismsThatShareACornerAreRefusedOrWrapped) {
+  Shape one = shapes::box(1), other = shapes::box(1);
+  shapes::scale_and_move(one, {5, 5, 40}, {0, 0, 0});
+  shapes::scale_and_move(other, {5, 5, 40}, {10, 10, 80});
+  const std::string path = write_text_stl("corner.stl", joined(one, other));
+  expect_words(refusal(path), {path, "meets itself", "near ("});
+  expect_wrapped(path, 2 * 10 * 10 * 80, 2 * (2 * 10 * 10 + 4 * 10 * 80), std::hypot(20, 20, 160));
+}
+
 TEST(ImportHull, TwoBodiesInOneFileAreRefused) {
   Shape one = shapes::box(1), other = shapes::box(1);
   shapes::scale_and_move(other, {1, 1, 1}, {5, 0, 0});
