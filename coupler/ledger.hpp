@@ -27,7 +27,7 @@ struct Ledger {
   std::array<double, body_count> fluid_weight{};      ///< part of the vertical one: weight of water within cut cells
   std::array<double, body_count> fluid_atmosphere{};  ///< vertical, not given: of the atmosphere, on surfaces that are
                                                       ///< not closed within the grid; the fluid's own books count it
-  std::array<double, body_count> fluid_carried{};   ///< part of the vertical one: fluid that walls carried along
+  std::array<double, body_count> fluid_carried{};     ///< part of the vertical one: fluid that walls carried along
   std::array<Impulse, body_count> fluid_start{};    ///< part of it: the pressure of the start, until the fluid answers
   std::array<Impulse, body_count> fluid_taken{};    ///< handed to the body
   std::array<double, body_count> fluid_reported{};  ///< vertical, from uniform cell pressures, in the fluid's own books

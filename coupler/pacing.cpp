@@ -65,11 +65,16 @@ void begin_loads(Run& run, double span) {
   if (!run.conversation.fluid) return;
   const bool expects = run.conversation.fluid->forecasts && run.keeper.span > 0;
   for (SolidSide& side : run.conversation.solids) {
-    if (!expects && run.keeper.span <= 1) give_start_impulse(side, span, run.ledger);
+    // In span 0 the loads of the start act up to the middle of its last window (the half step before is booked where it
+    // begins); with forecasts what is given beyond it until the span's end is known as such (`last_window`).
+    const double after_middle = run.conversation.fluid->forecasts ? 0.5 : 1.0;
+    const double handed_out = run.keeper.span == 0 ? span - after_middle * run.planned_step : span;
+    if (!expects && run.keeper.span <= 1) give_start_impulse(side, handed_out, run.ledger);
     if (run.keeper.span == 1) side.start_force.clear();
     begin_span_loads(side, {.span = span,
                             .last_span = run.keeper.time - run.keeper.span_start,
                             .window = run.planned_step,
+                            .last_window = run.keeper.length,
                             .expects = expects});
   }
 }

@@ -126,6 +126,7 @@ void read_ready(SolidSide& side, const exchange::Message& ready) {
   side.expected_force.assign(3 * side.vertices(), 0.0);
   side.span_force.assign(3 * side.vertices(), 0.0);
   side.impedance.assign(6 * side.vertices(), 0.0);
+  side.kept_share.assign(6 * side.vertices(), 0.0);
   side.seen_velocity = side.velocities;
   side.velocity_sum.assign(3 * side.vertices(), 0.0);
 }
@@ -144,14 +145,18 @@ void read_surface(SolidSide& side, const exchange::Message& surface) {
   const std::vector<double> old_impulse = std::move(side.fluid_impulse);
   const std::vector<double> old_impedance = std::move(side.impedance), old_seen = std::move(side.seen_velocity),
                             old_sum = std::move(side.velocity_sum), old_start = std::move(side.start_force),
-                            old_expected = std::move(side.expected_force), old_span = std::move(side.span_force);
+                            old_expected = std::move(side.expected_force), old_span = std::move(side.span_force),
+                            old_share = std::move(side.kept_share), old_force = std::move(side.fluid_force);
   read_topology(side, surface);
   read_motion(side, surface);
   side.fluid_impulse.assign(3 * side.vertices(), 0.0);
   add_fluid_impulses(side, old_ids, old_positions, old_impulse);
   const Renumbering renumbering(old_ids, side.ids);
-  side.impedance = renumbering.carry(old_impedance, 6, std::vector<double>(6 * side.vertices(), 0.0));
+  const std::vector<double> no_matrix(6 * side.vertices(), 0.0);
+  side.impedance = renumbering.carry(old_impedance, 6, no_matrix);
+  side.kept_share = renumbering.carry(old_share, 6, no_matrix);
   const std::vector<double> none(3 * side.vertices(), 0.0);
+  side.fluid_force = renumbering.carry(old_force, 3, none);
   side.expected_force = renumbering.carry(old_expected, 3, none);
   side.span_force = renumbering.carry(old_span, 3, none);
   side.seen_velocity = renumbering.carry(old_seen, 3, side.velocities);

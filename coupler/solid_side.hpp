@@ -37,6 +37,7 @@ struct SolidSide {
   std::vector<double> expected_force;  ///< N, forecast of the fluid for the next span
   std::vector<double> span_force;      ///< N, what the fluid's load of this span starts from
   std::vector<double> impedance;       ///< [nv][6] kg/s: xx, yy, zz, xy, yz, zx; resistance of the fluid to a vertex
+  std::vector<double> kept_share;      ///< [nv][6]: share of its last window's force that a vertex keeps
   std::vector<double> seen_velocity;   ///< m/s, mean over the span that the fluid answered last
   std::vector<double> velocity_sum;    ///< m, integral of the velocity over the current span so far
   double sum_time = 0;                 ///< s, of that integral
@@ -51,7 +52,7 @@ struct SolidSide {
   POLYNYA_STATE_WITHOUT((ready_time), name, body, stable_step, can_subdivide, can_checkpoint, ready_time, new_threads,
                         account, ids, masses, radii, volumes, triangles, positions, velocities, topology_changed,
                         contact_force, fluid_force, fluid_impulse, start_force, expected_force, span_force, impedance,
-                        seen_velocity, velocity_sum, sum_time)
+                        kept_share, seen_velocity, velocity_sum, sum_time)
 };
 
 void read_ready(SolidSide& side, const exchange::Message& ready);

@@ -46,6 +46,7 @@ void CutGeometry::restore(const Grid& grid) {
   cells_.clear();
   nodes_.clear();
   walls.clear();
+  dry_walls.clear();
   clamped_debris = 0;
 }
 
@@ -84,6 +85,7 @@ void CutGeometry::set(const Grid& grid, const std::array<Boundary, 6>& boundary,
   }
   const auto in_order = [](const WallPiece& a, const WallPiece& b) { return a.cell < b.cell; };
   if (!std::is_sorted(walls.begin(), walls.end(), in_order)) std::sort(walls.begin(), walls.end(), in_order);
+  find_dry_walls(grid);
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t m = 0; m < overlap.face[axis].size(); ++m) {
       const std::ptrdiff_t f = grid.face_from_message(axis, overlap.face[axis][m]);
@@ -105,6 +107,29 @@ void CutGeometry::set(const Grid& grid, const std::array<Boundary, 6>& boundary,
     }
   }
   update_nodes(grid);
+}
+
+void CutGeometry::find_dry_walls(const Grid& grid) {
+  for (const WallPiece& wall : walls) {
+    if (volume[wall.cell] > 0) continue;
+    // Areas point into the body: the fluid is on the other side.
+    double largest = 0;
+    std::ptrdiff_t towards = 0;
+    for (const auto& area : wall.area) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(area[axis]) <= largest) continue;
+        largest = std::abs(area[axis]);
+        towards = area[axis] > 0 ? -grid.stride(axis) : grid.stride(axis);
+      }
+    }
+    if (towards != 0 && volume[wall.cell + towards] > 0) dry_walls.push_back({wall.cell, wall.cell + towards});
+  }
+}
+
+std::ptrdiff_t CutGeometry::pressing_on(std::ptrdiff_t cell) const {
+  const auto at = std::lower_bound(dry_walls.begin(), dry_walls.end(), cell,
+                                   [](const DryWall& wall, std::ptrdiff_t c) { return wall.cell < c; });
+  return at != dry_walls.end() && at->cell == cell ? at->wet : cell;
 }
 
 void CutGeometry::open_like(const CutGeometry& later) {

@@ -83,9 +83,23 @@ void finish_filling(Fluid& fluid) {
   update_account(fluid);
 }
 
+std::ptrdiff_t pressing_cell(const Fluid& fluid, std::ptrdiff_t cell) {
+  if (fluid.density[cell] > 0 || fluid.before.volume[cell] > 0) return cell;
+  const std::ptrdiff_t now = fluid.after.pressing_on(cell);
+  return now != cell ? now : fluid.before.pressing_on(cell);
+}
+
+double height_above(const Fluid& fluid, std::ptrdiff_t cell, std::ptrdiff_t other) {
+  return fluid.grid.centre_z(static_cast<int>(cell / fluid.grid.sz)) -
+         fluid.grid.centre_z(static_cast<int>(other / fluid.grid.sz));
+}
+
 double wall_pressure(const Fluid& fluid, std::ptrdiff_t cell) {
-  if (fluid.density[cell] <= 0 && fluid.before.volume[cell] <= 0) return fluid.setup.atmospheric_pressure;
-  return fluid.steps > 0 || fluid.predicted_pressure[cell] != 0 ? fluid.predicted_pressure[cell] : fluid.pressure[cell];
+  const std::ptrdiff_t c = pressing_cell(fluid, cell);
+  if (fluid.density[c] <= 0 && fluid.before.volume[c] <= 0) return fluid.setup.atmospheric_pressure;
+  const bool used = fluid.steps > 0 || fluid.predicted_pressure[c] != 0;
+  return (used ? fluid.predicted_pressure[c] : fluid.pressure[c]) -
+         fluid.density[c] * fluid.setup.gravity * height_above(fluid, cell, c);
 }
 
 void overlap_pressure(const Fluid& fluid, std::span<const std::int64_t> cells, std::vector<double>& value,
@@ -96,7 +110,7 @@ void overlap_pressure(const Fluid& fluid, std::span<const std::int64_t> cells, s
   for (std::size_t m = 0; m < count; ++m) {
     const std::ptrdiff_t c = fluid.grid.from_message(cells[m]);
     value[m] = wall_pressure(fluid, c) - fluid.setup.atmospheric_pressure;
-    gradient[m] = fluid.density[c] * fluid.setup.gravity;
+    gradient[m] = fluid.density[pressing_cell(fluid, c)] * fluid.setup.gravity;
   }
 }
 

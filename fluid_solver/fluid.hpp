@@ -210,8 +210,14 @@ void step(Fluid& fluid, double dt, const Overlap& overlap);
 /// Largest step the scheme bears: half a cell per sound speed plus flow speed, s.
 double stable_step(const Fluid& fluid);
 
-/// Absolute pressure on the walls in a cell: the one the step used; the atmosphere's where no fluid is left between
-/// solids, which is no load.
+/// The cell whose fluid presses on the walls in `cell`: another one where a film too thin to hold fluid is all that
+/// solids leave of it.
+std::ptrdiff_t pressing_cell(const Fluid& fluid, std::ptrdiff_t cell);
+/// z of the centre of `cell` less that of `other`, m.
+double height_above(const Fluid& fluid, std::ptrdiff_t cell, std::ptrdiff_t other);
+
+/// Absolute pressure on the walls in a cell, at the height of the whole cell's centre: the one the step used; the
+/// atmosphere's where no fluid is left between solids, which is no load.
 double wall_pressure(const Fluid& fluid, std::ptrdiff_t cell);
 
 /// Gauge pressure and vertical pressure gradient (density times gravity) in cells (numbers of the messages):

@@ -43,12 +43,12 @@ double wall_size(const Fluid& fluid, std::ptrdiff_t cell) {
   return at != walls.end() && at->cell == cell ? at->size : 0.0;
 }
 
-/// A cell that is in no group is at least half full.
-Motion motion_of_cell(const Fluid& fluid, std::ptrdiff_t cell, double dt) {
+/// A cell that is in no group is at least half full. `size`: of the walls that it presses on, m^2.
+Motion motion_of_cell(const Fluid& fluid, std::ptrdiff_t cell, double size, double dt) {
   const double least = 0.5 * fluid.grid.cell_volume[cell], rate = fluid.rate[cell];
   const double before = std::max(fluid.before.volume[cell], least), after = std::max(fluid.after.volume[cell], least);
-  return {fluid.pressure[cell] - fluid.bulk_modulus[cell] * dt * rate / before, rate / after,
-          wall_size(fluid, cell) / after, whole_cell_prediction};
+  return {fluid.pressure[cell] - fluid.bulk_modulus[cell] * dt * rate / before, rate / after, size / after,
+          whole_cell_prediction};
 }
 
 /// Fills in the members of group g that hold wall: those with a number in `wall_of`.
@@ -81,8 +81,11 @@ WallForecast forecast_walls(Fluid& fluid, std::span<const std::int64_t> cells, d
   std::vector<std::int32_t>& wall_of = fluid.label;
   for (std::size_t w = 0; w < cells.size(); ++w) {
     const std::ptrdiff_t cell = fluid.grid.from_message(cells[w]);
-    const Expected expected = expected_in(fluid, cell, motion_of_cell(fluid, cell, dt), dt);
-    forecast.pressure[w] = expected.pressure;
+    const std::ptrdiff_t pressing = fluid.after.pressing_on(cell);
+    const Expected expected =
+        expected_in(fluid, pressing, motion_of_cell(fluid, pressing, wall_size(fluid, cell), dt), dt);
+    forecast.pressure[w] =
+        expected.pressure - fluid.density[pressing] * fluid.setup.gravity * height_above(fluid, cell, pressing);
     forecast.impedance[w] = expected.impedance;
     wall_of[cell] = static_cast<std::int32_t>(w);
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/compute/parallel.hpp"
+#include "core/continuum/equilibrium.hpp"
 #include "ice_solver/ball.hpp"
 
 namespace polynya::ice {
@@ -89,6 +90,13 @@ IceBody make_ice(const IceOptions& options) {
   ice.pair_force.assign(3 * ice.solid.node_count(), 0.0);
   ice.nodal_force.assign(3 * ice.solid.node_count(), 0.0);
   return ice;
+}
+
+void settle(IceBody& ice, std::span<const double> node_loads) {
+  std::vector<double> loads(node_loads.begin(), node_loads.end());
+  for (std::size_t n = 0; n < ice.solid.node_count(); ++n)
+    loads[3 * n + 2] -= ice.options.gravity * ice.solid.masses[n];
+  continuum::bring_into_equilibrium(ice.solid, loads);
 }
 
 void advance_positions(IceBody& ice, double dt) {

@@ -113,6 +113,11 @@ struct IceBody {
 /// A plate at rest. Throws std::invalid_argument on bad grid lines.
 IceBody make_ice(const IceOptions& options);
 
+/// Gives the plate the stress that balances loads on its nodes ([n][3], N) and its weight, but for the rigid
+/// acceleration they cause; its present shape is the loaded one. Before the first step. Throws std::runtime_error
+/// where forces do not come to balance.
+void settle(IceBody& ice, std::span<const double> node_loads);
+
 void advance_positions(IceBody& ice, double dt);
 void internal_forces(IceBody& ice, double dt);
 /// node_loads: [nodes][3], particle_loads: [particles][3], N; either may be empty.

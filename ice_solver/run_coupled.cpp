@@ -149,6 +149,10 @@ void begin(Course& course, exchange::Participant& participant) {
     distribute_loads(ice, course.surface, begin.view<std::int64_t>("load.vertices"), begin.view<double>("load.forces"),
                      node_loads, particle_loads);
   }
+  if (course.run.scene.ice->start == "equilibrium" && !node_loads.empty()) {
+    const auto lap = ice.watch.lap("equilibrium");
+    settle(ice, node_loads);
+  }
   internal_forces(ice, 0);
   advance_velocities(ice, node_loads, particle_loads, 0, course.dt);
   spdlog::info("begins with a step of {:.3e} s", course.dt);

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/compute/parallel.hpp"
-#include "structure_solver/equilibrium.hpp"
+#include "core/continuum/equilibrium.hpp"
 
 namespace polynya::structure {
 namespace {
@@ -47,7 +47,7 @@ DeformableVehicle::DeformableVehicle(const geometry::VehicleMesh& mesh, const co
 void DeformableVehicle::settle(std::span<const double> hull_force) {
   std::vector<double> loads = weight_;
   add_hull_force(hull_force, loads);
-  bring_into_equilibrium(solid_, loads);
+  continuum::bring_into_equilibrium(solid_, loads);
   start_damping_ = {2 * std::numbers::pi / wave_time_, solid_.time + 2 * wave_time_};
 }
 

@@ -71,7 +71,7 @@ void shape_hourglass(ExplicitSolid& solid, std::size_t e, const Modes<double>& c
                                         dot(c[m + 4], cross(c[3], c[1])) / triple,
                                         dot(c[m + 4], cross(c[1], c[2])) / triple};
     for (std::size_t j = 0; j < 3; ++j) {
-      if (std::abs(natural[j]) < 1e-11) continue;  // round-off of a parallelepiped
+      if (std::abs(natural[j]) < 1e-13) continue;  // round-off of a parallelepiped
       solid.natural_hourglass[(e / w * 12 + 3 * m + j) * w + e % w] = natural[j];
       solid.irregular[e / w] = 1;
     }

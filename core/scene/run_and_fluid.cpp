@@ -139,6 +139,16 @@ void read_dam(const Values& values, Scene& scene) {
     values.fail("dam.tank_length", "more than ten million cells; enlarge resolution.cell");
 }
 
+/// The flow about a vehicle that moves from the start presses on the ice with what no plate has come to rest under.
+void choose_ice_start(const Values& values, Scene& scene) {
+  Ice& ice = *scene.ice;
+  const bool at_rest = !scene.vehicle || scene.vehicle->speed == 0 || scene.fluid->start == "impulsive";
+  if (ice.start == "equilibrium" && !at_rest)
+    values.fail("ice.start", "the vehicle's flow presses on the ice from the start; must be auto or unloaded");
+  const bool floats = (ice.sides == "free" || ice.sides == "non_reflecting") && ice.held_rim == 0;
+  if (values.text("ice.start") == "auto" && at_rest && floats) ice.start = "equilibrium";
+}
+
 void read_fluid(const Values& values, Scene& scene) {
   auto& f = *scene.fluid;
   const auto& v = scene.vehicle;
@@ -152,6 +162,7 @@ void read_fluid(const Values& values, Scene& scene) {
   const auto& water = scene.material(f.water);
   f.vapour_pressure = water.has("vapour_pressure") ? water.value("vapour_pressure") : 0;
   f.start = values.text("fluid.start"), f.outer_boundary = values.text("fluid.outer_boundary");
+  if (scene.ice) choose_ice_start(values, scene);
   f.shock_viscosity = values.text("fluid.shock_viscosity"), f.sweeps = values.text("fluid.sweeps");
   f.sleeping_threshold = values.number("fluid.sleeping_threshold");
   f.bottom = (scene.ice ? scene.ice->lower_face : f.waterline) - values.number("water.depth");

@@ -104,6 +104,7 @@ struct Ice {
   std::string sides;      ///< "non_reflecting", "free", "clamped" or "clamped_ends"
   double damping = 0;     ///< 1/s, force over mass and velocity; 0: none
   double held_rim = 0;    ///< m, width of a rim of the upper face whose nodes are held; 0: none
+  std::string start;      ///< "equilibrium" with the loads it starts under, or "unloaded"
   std::string particles;  ///< what a converted element becomes: "element_centre", "free_masses" or "none"
   std::optional<Bending> bending;
   std::optional<Ball> ball;

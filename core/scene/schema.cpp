@@ -133,6 +133,10 @@ std::vector<KeyRule> solid_rules() {
              "of all motion of a plate that is to come to rest: force over mass and velocity; not beside a vehicle", 0),
       number("ice.held_rim", dim::length, "0",
              "width of a rim along the sides of the upper face (away from the vehicle) that is held; 0: none", 0),
+      choice(
+          "ice.start", {"auto", "equilibrium", "unloaded"}, "auto",
+          "stress at the start: in equilibrium with water and weight, or none; auto: equilibrium for ice that floats "
+          "on water at rest"),
       choice("ice.particles", {"element_centre", "free_masses", "none"}, "element_centre",
              "what a failed element becomes: an SPH particle at its centre; a mass there that meets the vehicle only; "
              "nothing, its mass and motion leave"),

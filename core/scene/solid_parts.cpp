@@ -129,6 +129,10 @@ Ice read_ice(const Values& values) {
   }
   ice.sides = values.text("ice.sides");
   if (ice.sides == "auto") ice.sides = ice.bending || ice.ball ? "free" : "non_reflecting";
+  ice.start = values.text("ice.start");
+  if (ice.start == "equilibrium" && (!values.has("water") || ice.ball || ice.bending))
+    values.fail("ice.start", "ice that meets no water starts without loads; must be auto or unloaded");
+  if (ice.start == "auto") ice.start = "unloaded";
   ice.damping = values.number("ice.damping");
   if (ice.damping > 0 && (values.has("vehicle") || ice.ball || ice.bending))
     values.fail("ice.damping",

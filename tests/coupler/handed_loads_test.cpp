@@ -170,3 +170,28 @@ TEST(HandedLoads, ForecastsFollowAFreeWallMoreCloselyThanLoadsOfTheSpanBefore) {
     EXPECT_LT(error(ratio, true), 0.5 * error(ratio, false));
   }
 }
+
+TEST(HandedLoads, ASteadyLoadIsHandedOnWholeWhateverTheImpedanceAndWhileStepsGrow) {
+  // Water at rest: the fluid expects and gives the same force again and again, nothing moves.
+  constexpr double force = 3;
+  for (const double impedance : {0.1, 10.0, 1e3}) {
+    SolidSide side = wall_of(1);
+    side.seen_velocity = side.velocities = {0, 0, 0};
+    side.fluid_force = {0, 0, force};
+    side.expected_force = {0, 0, force};
+    double window = 0.1;
+    side.fluid_impulse[2] = 0.5 * window * force;  // given until the span's end, handed on to the middle of its window
+    for (int span = 0; span < 40; ++span) {
+      const double next = 1.1 * window;
+      side.impedance = {0, 0, impedance, 0, 0, 0};
+      begin_span_loads(
+          side, {.span = 2 * next, .last_span = 2 * window, .window = next, .last_window = window, .expects = true});
+      hand_on_fluid_loads(side, 0.5 * (window + next));
+      EXPECT_NEAR(side.fluid_force[2], force, 1e-12 * force) << impedance << " " << span;
+      hand_on_fluid_loads(side, next);
+      EXPECT_NEAR(side.fluid_force[2], force, 1e-12 * force) << impedance << " " << span;
+      side.fluid_impulse[2] += 2 * next * force;
+      window = next;
+    }
+  }
+}

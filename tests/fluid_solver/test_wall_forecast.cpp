@@ -115,3 +115,46 @@ TEST_P(ForecastOfWalls, ImpedanceIsWhatFasterWallsAddAndNotLess) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AnywhereInACell, ForecastOfWalls, testing::Values(0.1, 0.45, 0.55, 0.9));
+
+namespace {
+
+Fluid tank() {
+  Setup setup;
+  setup.gravity = 9.81;
+  setup.boundary.fill(Boundary::wall);
+  setup.boundary[5] = Boundary::non_reflecting;
+  return {Grid(even_line(0, 0.02, 2), even_line(0, 0.02, 2), even_line(-0.1, 0.05, 15)), setup};
+}
+
+}  // namespace
+
+TEST(ThinFilm, PressesAsTheFluidInFrontOfIt) {
+  // The lower face of a plate lies in a plane of the grid, but for less than a cell can hold fluid: on either side.
+  std::array<double, 3> force{}, expected{};
+  for (int n = 0; n < 3; ++n) {
+    Fluid fluid = tank();
+    const double face = (n - 1) * 1e-12;
+    const Overlap overlap = overlap_of(fluid.grid, Box{{-1, -1, face}, {1, 1, 0.02}}, {});
+    fill_hydrostatic(fluid, overlap, 0.018);
+    for (int s = 0; s < 3; ++s) step(fluid, 0.5 * stable_step(fluid), overlap);
+    const auto cells = walled(overlap);
+    std::vector<double> value, gradient;
+    overlap_pressure(fluid, cells, value, gradient);
+    const WallForecast forecast = forecast_walls(fluid, cells, stable_step(fluid));
+    for (std::size_t m = 0; m < overlap.cell.size(); ++m) {
+      const auto at = std::find(cells.begin(), cells.end(), overlap.cell[m]);
+      if (at == cells.end()) continue;
+      const std::size_t w = static_cast<std::size_t>(at - cells.begin());
+      const double area = overlap.wall_area[6 * m + 2];  // upward into the plate below it
+      const double height =
+          fluid.grid.centre_z(static_cast<int>(fluid.grid.from_message(overlap.cell[m]) / fluid.grid.sz));
+      if (area <= 0) continue;
+      force[n] += area * (value[w] + gradient[w] * (height - face));
+      expected[n] += area * (forecast.pressure[w] + gradient[w] * (height - face));
+    }
+  }
+  std::printf("force of water on the plate %.6f N, %.6f, %.6f\n", force[0], force[1], force[2]);
+  EXPECT_GT(force[0], 0.02 * 0.02 * 1000 * 9.81 * 0.013);
+  for (const double f : {force[1], force[2], expected[0], expected[1], expected[2]})
+    EXPECT_NEAR(f, force[0], 1e-4 * force[0]);
+}

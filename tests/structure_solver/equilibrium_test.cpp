@@ -1,5 +1,3 @@
-#include "structure_solver/equilibrium.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>

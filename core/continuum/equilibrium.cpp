@@ -1,11 +1,11 @@
-#include "structure_solver/equilibrium.hpp"
+#include "core/continuum/equilibrium.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-namespace polynya::structure {
+namespace polynya::continuum {
 namespace {
 
 constexpr int most_steps = 200000, steps_between_checks = 50;
@@ -16,51 +16,60 @@ Eigen::Vector3d row(std::span<const double> values, std::size_t i) {
 }
 
 /// Bits of components that some node holds: motion along these is not free.
-int held_components(const continuum::ExplicitSolid& solid) {
+int held_components(const ExplicitSolid& solid) {
   int held = 0;
   for (const std::uint8_t bits : solid.fixed) held |= bits;
   return held;
 }
 
 /// Largest force that is not balanced, over free components.
-double imbalance(const continuum::ExplicitSolid& solid, std::span<const double> loads) {
+double imbalance(const ExplicitSolid& solid, std::span<const double> loads) {
   double largest = 0;
   for (std::size_t i = 0; i < loads.size(); ++i)
     if (!(solid.fixed[i / 3] >> i % 3 & 1)) largest = std::max(largest, std::abs(solid.internal_force[i] + loads[i]));
   return largest;
 }
 
-void relax(continuum::ExplicitSolid& solid, std::span<const double> loads) {
+/// From rest at the present positions: half a step of acceleration. A plain stop would leave the fastest modes, w dt
+/// near 2, at 1 / cos(asin(w dt / 2)) of their amplitude, and a body that is stopped often would fly apart.
+void start_from_rest(ExplicitSolid& solid, std::span<const double> loads, double dt) {
+  std::fill(solid.velocities.begin(), solid.velocities.end(), 0.0);
+  advance_velocities(solid, loads, 0, dt);
+}
+
+double kinetic_energy(const ExplicitSolid& solid) {
+  double sum = 0;
+  for (std::size_t i = 0; i < solid.velocities.size(); ++i)
+    sum += 0.5 * solid.masses[i / 3] * solid.velocities[i] * solid.velocities[i];
+  return sum;
+}
+
+void relax(ExplicitSolid& solid, std::span<const double> loads) {
   double largest_load = 0;
   for (const double load : loads) largest_load = std::max(largest_load, std::abs(load));
-  std::fill(solid.velocities.begin(), solid.velocities.end(), 0.0);
-  double dt = step_factor * continuum::stable_step(solid), kinetic = 0, left = 0;
-  continuum::internal_forces(solid, 0);
-  continuum::advance_velocities(solid, loads, 0, dt);
+  solid.damped = {};  // nothing leaves while the body comes to rest, and nothing but the loads acts on it then
+  double dt = step_factor * stable_step(solid), kinetic = 0, left = 0;
+  internal_forces(solid, 0);
+  start_from_rest(solid, loads, dt);
   for (int step = 1; step <= most_steps; ++step) {
-    continuum::advance_positions(solid, dt);
-    continuum::internal_forces(solid, dt);
+    advance_positions(solid, dt);
+    internal_forces(solid, dt);
     if (step % steps_between_checks == 0 && (left = imbalance(solid, loads)) <= tolerance * largest_load) return;
-    const double next = step_factor * continuum::stable_step(solid);
-    continuum::advance_velocities(solid, loads, dt, next);
+    const double next = step_factor * stable_step(solid);
+    advance_velocities(solid, loads, dt, next);
     dt = next;
-    double now = 0;
-    for (std::size_t i = 0; i < solid.velocities.size(); ++i)
-      now += 0.5 * solid.masses[i / 3] * solid.velocities[i] * solid.velocities[i];
-    if (now < kinetic) {
-      std::fill(solid.velocities.begin(), solid.velocities.end(), 0.0);
-      now = 0;
-    }
-    kinetic = now;
+    const double now = kinetic_energy(solid);
+    if (now < kinetic) start_from_rest(solid, loads, dt);
+    kinetic = now < kinetic ? 0 : now;
   }
-  throw std::runtime_error(
-      "the vehicle found no equilibrium with the pressure it starts under: " + std::to_string(left / largest_load) +
-      " of the largest nodal load is not balanced after " + std::to_string(most_steps) + " steps of relaxation");
+  throw std::runtime_error("body '" + solid.name + "' found no equilibrium with the loads it starts under: " +
+                           std::to_string(left / largest_load) + " of the largest nodal load is not balanced after " +
+                           std::to_string(most_steps) + " steps of relaxation");
 }
 
 }  // namespace
 
-std::vector<double> without_rigid_acceleration(const continuum::ExplicitSolid& solid, std::span<const double> loads) {
+std::vector<double> without_rigid_acceleration(const ExplicitSolid& solid, std::span<const double> loads) {
   using Eigen::Matrix3d, Eigen::Vector3d;
   const int held = held_components(solid);
   Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero(), centre = Vector3d::Zero();
@@ -93,14 +102,14 @@ std::vector<double> without_rigid_acceleration(const continuum::ExplicitSolid& s
   return balanced;
 }
 
-void bring_into_equilibrium(continuum::ExplicitSolid& solid, std::span<const double> loads) {
+void bring_into_equilibrium(ExplicitSolid& solid, std::span<const double> loads) {
   if (std::all_of(loads.begin(), loads.end(), [](double load) { return load == 0; })) return;
-  continuum::ExplicitSolid relaxed = solid;
+  ExplicitSolid relaxed = solid;
   relax(relaxed, without_rigid_acceleration(solid, loads));
-  continuum::HexMesh unloaded = solid.mesh;
+  HexMesh unloaded = solid.mesh;
   for (std::size_t i = 0; i < unloaded.nodes.size(); ++i)
     unloaded.nodes[i] -= relaxed.positions[i] - solid.positions[i];
-  continuum::ExplicitSolid shaped = continuum::make_solid(solid.name, unloaded, solid.law, solid.numerics);
+  ExplicitSolid shaped = make_solid(solid.name, unloaded, solid.law, solid.numerics);
   solid.mesh = std::move(unloaded);
   solid.natural_hourglass = std::move(shaped.natural_hourglass);
   solid.hourglass_stiffness = std::move(shaped.hourglass_stiffness);
@@ -109,4 +118,4 @@ void bring_into_equilibrium(continuum::ExplicitSolid& solid, std::span<const dou
   solid.element.stress = std::move(relaxed.element.stress);
 }
 
-}  // namespace polynya::structure
+}  // namespace polynya::continuum
