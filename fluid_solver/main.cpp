@@ -95,17 +95,21 @@ void run(const Options& options, const scene::Scene& scene, fluid::Fluid& built)
   if (options.alone()) {
     try {
       double error = -1;
+      nlohmann::json more = nlohmann::json::object();
       keeping_last_good(output, [&] {
         if (scene.fluid->dam) {
           fluid::run_dam(scene, built, output, checkpoints);
         } else if (scene.fluid->bodies) {
           fluid::PrescribedBodies bodies(scene, built.grid);
           fluid::run_bodies(scene, built, bodies, output, checkpoints);
+          more = {{"overlap_cells", bodies.counts().cells},
+                  {"overlap_cells_exact", bodies.counts().exact},
+                  {"overlap_cells_two_bodies", bodies.counts().shared}};
         } else
           error = fluid::run_tube(scene, built, output, checkpoints);
       });
       if (error >= 0) spdlog::info("mean error of the density: {:.4f} of its mean", error);
-      output.write_summary(built, error);
+      output.write_summary(built, error, more);
     } catch (...) {
       output.close(built, {});
       throw;

@@ -24,6 +24,18 @@ def impulse(columns, axis):
     return sum(force * (b - a) for force, a, b in zip(forces[1:], times, times[1:]))
 
 
+def block(length, width, height):
+    """STL text of a box with a corner at the origin."""
+    corners = [(x, y, z) for z in (0, height) for y in (0, width) for x in (0, length)]
+    faces = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2),
+             (1, 3, 7), (1, 7, 5)]
+    lines = ["solid block"]
+    for face in faces:
+        lines += ["facet normal 0 0 0", "outer loop"]
+        lines += ["vertex {} {} {}".format(*corners[corner]) for corner in face] + ["endloop", "endfacet"]
+    return "\n".join(lines + ["endsolid block"]) + "\n"
+
+
 class BodiesInWater(unittest.TestCase):
     def test_sphere_takes_half_the_mass_of_the_water_it_displaces(self):
         """Impulse over 0.5 rho V U at 8 cells per diameter, from the scene and its one process alone."""
@@ -39,6 +51,8 @@ class BodiesInWater(unittest.TestCase):
             for side in ("force_x", "force_y", "moment_x", "moment_y", "moment_z"):
                 self.assertTrue(all(value == 0 for value in columns[f"sphere_{side}"]), side)
             self.assertEqual(list(summary["processes"]), ["fluid"])
+            self.assertGreater(summary["overlap_cells"], 0)
+            self.assertEqual(summary["overlap_cells_two_bodies"], 0)
             self.assertTrue((run / "pictures" / "forces.png").is_file())
             self.assertGreater(len(json.loads((run / "fields" / "fluid.json").read_text())["frames"]), 5)
 
@@ -55,12 +69,13 @@ class BodiesInWater(unittest.TestCase):
                 self.assertLess(max(map(abs, full[f"sphere_force_{side}"])), 1e-5 * largest)
 
     def test_body_at_rest_is_carried_by_its_buoyancy(self):
-        """rho g V (Archimedes) on bodies of every shape; the wedge is turned and off the axis."""
+        """rho g V (Archimedes) on bodies of every shape; the wedge is turned, the box a file in millimetres."""
         shapes = {"ball": (["shape=sphere", "diameter=10 mm", "position=-20 mm, 0, -30 mm"], math.pi / 6 * 1e-6),
                   "rod": (["shape=cylinder", "diameter=10 mm", "height=12 mm", "position=0, 0, -30 mm",
                            "angles=90 deg, 0, 0"], math.pi / 4 * 1.2e-6),
                   "roof": (["shape=wedge", "length=16 mm", "width=8 mm", "height=6 mm",
                             "position=22 mm, 1 mm, -33 mm", "angles=0, 20 deg, 0"], 0.5 * 16e-3 * 8e-3 * 6e-3)}
+        shapes["file"] = (["shape=file", "file=block.stl", "file_unit=mm", "position=-20 mm, 14 mm, -32 mm"], 480e-9)
         text = "[run]\nend_time = \"4 us\"\n[water]\ndepth = \"60 mm\"\n[air]\n[fluid]\nlength = \"80 mm\"\nwidth = \"60 mm\"\n"
         for name, (keys, _) in shapes.items():
             words = (key.split("=") for key in keys)
@@ -68,6 +83,7 @@ class BodiesInWater(unittest.TestCase):
         with scratch() as folder:
             scene = Path(folder, "scene.toml")
             scene.write_text(text)
+            Path(folder, "block.stl").write_text(block(10, 8, 6))
             run = Path(folder, "run")
             summary_of(polynya("run", scene, "--out", run, "--json", "--no-pictures"))
             columns = series(run / "series" / "bodies.csv")
