@@ -27,7 +27,7 @@ def draw_section(ax: pyplot.Axes, section: Section, view: View, what: str) -> No
     else:
         mesh(ax, section, view, "water_fraction", cmap=style.WATER_MAP, vmin=0, vmax=1)
     plain = what == "pressure"
-    if view.scene.get("fluid", {}).get("bodies"):
+    if (view.scene.get("fluid") or {}).get("bodies"):
         bodies(ax, section, view)
     if section.ice is not None:
         cells(ax, section.ice, section.ice_damage, view, Normalize(0, 1), style.DAMAGE_MAP,
