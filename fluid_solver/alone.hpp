@@ -18,11 +18,11 @@ struct CourseAlone {
   POLYNYA_STATE(fluid, frame, series, output)
 };
 
-/// Steps a fluid that meets no solid to the end of the run, with a frame at every frame interval, hit exactly;
-/// after_step() is called at the start and after every step, and keeps what `series` lists.
-template <class Series, class After>
+/// Takes a fluid to the end of the run by advance(dt), which steps it, with a frame at every frame interval, hit
+/// exactly; after_step() is called at the start and after every step, and keeps what `series` lists.
+template <class Series, class Advance, class After>
 void run_alone(const scene::Scene& scene, Fluid& fluid, Output& output, const results::Checkpoints& checkpoints,
-               Series& series, After&& after_step) {
+               Series& series, Advance&& advance, After&& after_step) {
   const double end = scene.run.end_time, interval = scene.run.frame_interval;
   CourseAlone<Series> course{fluid, 1, series, output};
   if (checkpoints.resuming()) {
@@ -39,7 +39,7 @@ void run_alone(const scene::Scene& scene, Fluid& fluid, Output& output, const re
     const double next_frame = std::min(end, course.frame * interval);
     const double largest = scene.run.fluid_step_factor * stable_step(fluid), left = next_frame - fluid.time;
     const double dt = left <= largest ? left : left < 2 * largest ? 0.5 * left : largest;
-    step(fluid, dt, {});
+    advance(dt);
     output.record(fluid, dt);
     after_step();
     if (fluid.time >= next_frame * (1 - 1e-12)) output.write_frame(fluid, course.frame++);
@@ -51,6 +51,14 @@ void run_alone(const scene::Scene& scene, Fluid& fluid, Output& output, const re
     checkpoints.save(results::checkpoint_folder(fluid.steps), fluid.steps, fluid.time, course);
     results::commit_checkpoint(output.folder(), fluid.steps, fluid.time, {checkpoints.file()});
   }
+}
+
+/// The same for a fluid that meets no solid.
+template <class Series, class After>
+void run_alone(const scene::Scene& scene, Fluid& fluid, Output& output, const results::Checkpoints& checkpoints,
+               Series& series, After&& after_step) {
+  run_alone(
+      scene, fluid, output, checkpoints, series, [&](double dt) { step(fluid, dt, {}); }, after_step);
 }
 
 }  // namespace polynya::fluid

@@ -10,6 +10,7 @@
 #include "core/exchange/errors.hpp"
 #include "core/exchange/record_reader.hpp"
 #include "core/exchange/replay_options.hpp"
+#include "fluid_solver/bodies_run.hpp"
 #include "fluid_solver/cards.hpp"
 #include "fluid_solver/conversation.hpp"
 #include "fluid_solver/dam_run.hpp"
@@ -30,7 +31,8 @@ struct Options {
 /// Reads the command line; a value means that the process ends with this exit code.
 std::optional<int> parse(int argc, char** argv, Options& options) {
   CLI::App app{
-      "Moves water and air around the solids that cut its grid. Without --connect: a shock tube or a dam that breaks."};
+      "Moves water and air around the solids that cut its grid. Without --connect: a shock tube, a dam that "
+      "breaks, or bodies that move as the scene says."};
   app.add_option("--scene", options.scene, "resolved scene (RUN/scene.json)")->required();
   app.add_option("--out", options.out, "run folder")->required();
   auto* connect = app.add_option("--connect", options.endpoint, "the coupler's endpoint");
@@ -59,12 +61,12 @@ void start_log(const Options& options) {
 fluid::Fluid build(const Options& options, const scene::Scene& scene) {
   if (!scene.fluid) throw std::runtime_error(options.scene + ": the scene has no fluid");
   const bool tube = scene.fluid->tube.has_value();
-  const bool alone = tube || scene.fluid->dam;
+  const bool alone = tube || scene.fluid->dam || scene.fluid->bodies;
   if (alone != options.alone()) {
     throw std::runtime_error(
-        options.scene + (alone
-                             ? ": a tube or a dam runs alone, without --connect"
-                             : ": water and air move around solids; give --connect, or a scene with [tube] or [dam]"));
+        options.scene + (alone ? ": a tube, a dam or a body whose motion is prescribed runs alone, without --connect"
+                               : ": water and air move around solids; give --connect, or a scene with [tube], [dam] or "
+                                 "[body.NAME]"));
   }
   fluid::Fluid built = tube ? fluid::make_tube(scene) : fluid::make_fluid(scene);
   spdlog::info("grid: {} x {} x {} = {} cells", built.grid.nx, built.grid.ny, built.grid.nz, built.grid.cells());
@@ -93,14 +95,21 @@ void run(const Options& options, const scene::Scene& scene, fluid::Fluid& built)
   if (options.alone()) {
     try {
       double error = -1;
+      nlohmann::json more = nlohmann::json::object();
       keeping_last_good(output, [&] {
-        if (scene.fluid->dam)
+        if (scene.fluid->dam) {
           fluid::run_dam(scene, built, output, checkpoints);
-        else
+        } else if (scene.fluid->bodies) {
+          fluid::PrescribedBodies bodies(scene, built.grid);
+          fluid::run_bodies(scene, built, bodies, output, checkpoints);
+          more = {{"overlap_cells", bodies.counts().cells},
+                  {"overlap_cells_exact", bodies.counts().exact},
+                  {"overlap_cells_two_bodies", bodies.counts().shared}};
+        } else
           error = fluid::run_tube(scene, built, output, checkpoints);
       });
       if (error >= 0) spdlog::info("mean error of the density: {:.4f} of its mean", error);
-      output.write_summary(built, error);
+      output.write_summary(built, error, more);
     } catch (...) {
       output.close(built, {});
       throw;

@@ -174,7 +174,7 @@ void Output::close(const Fluid& fluid, const results::Waits& waits) {
   report_.write(folder_, name_);
 }
 
-void Output::write_summary(const Fluid& fluid, double density_error) const {
+void Output::write_summary(const Fluid& fluid, double density_error, const nlohmann::json& more) const {
   nlohmann::json found = summary(fluid);
   found["end_reason"] = "time";
   found["end_time"] = fluid.time;
@@ -182,6 +182,7 @@ void Output::write_summary(const Fluid& fluid, double density_error) const {
   found["energy_error"] = energy > 0 ? std::abs(fluid.account.energy_sum() - first_.energy_sum()) / energy : 0.0;
   if (fluid.setup.sleeping_threshold > 0) found["effects"]["sleeping"]["reason"] = sleeping_report(fluid);
   if (density_error >= 0) found["density_error"] = density_error;
+  found.update(more);
   results::replace_text(folder_ + "/" + name_ + "_summary.json", found.dump(1) + "\n");
 }
 

@@ -31,8 +31,8 @@ class Output {
   std::string write_last_good();
   /// Last row and the report of the process, which was blocked in these waits.
   void close(const Fluid& fluid, const results::Waits& waits);
-  /// RUN/NAME_summary.json, of a run without a coupler. density_error: see run_tube.
-  void write_summary(const Fluid& fluid, double density_error) const;
+  /// RUN/NAME_summary.json, of a run without a coupler, with the entries of `more`. density_error: see run_tube.
+  void write_summary(const Fluid& fluid, double density_error, const nlohmann::json& more) const;
   nlohmann::json summary(const Fluid& fluid) const;
   int frames() const { return static_cast<int>(frames_.count()); }
   const std::string& folder() const { return folder_; }

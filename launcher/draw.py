@@ -43,6 +43,9 @@ def jobs(run: Path, scene: dict, summary: dict, folder: Path) -> Iterator[tuple[
         yield "energies", lambda: draw_curves.draw_energies(scene, summary, series, folder / "energies.png")
     if series and len(names) == 1:
         yield "series", lambda: draw_series.draw_columns(scene, series.ordered(), folder / "series.png")
+    forces = read_series(run / "series" / "bodies.csv")
+    if forces:
+        yield "forces", lambda: draw_series.draw_columns(scene, forces.ordered(), folder / "forces.png")
     tube = read_series(run / "series" / "tube.csv")
     if tube:
         yield "tube", lambda: draw_series.draw_profiles(scene, tube, folder / "tube.png")

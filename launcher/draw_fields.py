@@ -27,6 +27,8 @@ def draw_section(ax: pyplot.Axes, section: Section, view: View, what: str) -> No
     else:
         mesh(ax, section, view, "water_fraction", cmap=style.WATER_MAP, vmin=0, vmax=1)
     plain = what == "pressure"
+    if (view.scene.get("fluid") or {}).get("bodies"):
+        bodies(ax, section, view)
     if section.ice is not None:
         cells(ax, section.ice, section.ice_damage, view, Normalize(0, 1), style.DAMAGE_MAP,
               "#f4f4f4" if plain else None)
@@ -55,6 +57,17 @@ def mesh(ax: pyplot.Axes, section: Section, view: View, name: str, **colours) ->
     for side in sides(view):
         ax.pcolormesh(side * section.x * MM, section.z * MM, section.fluid[name], shading="flat", rasterized=True,
                       **colours)
+
+
+def bodies(ax: pyplot.Axes, section: Section, view: View) -> None:
+    """Bodies that have no mesh of their own: where more than half of the cells is solid."""
+    solid = section.fluid.get("solid_fraction")
+    if solid is None:
+        return
+    x, z = (0.5 * (line[1:] + line[:-1]) for line in (section.x, section.z))
+    if view.mirrored:
+        x, solid = numpy.concatenate([-x[::-1], x]), numpy.concatenate([solid[:, ::-1], solid], axis=1)
+    ax.contourf(x * MM, z * MM, solid, levels=[0.5, 2.0], colors=["#8a8a8a"])
 
 
 def waterline(ax: pyplot.Axes, section: Section, view: View) -> None:

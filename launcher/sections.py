@@ -111,12 +111,22 @@ def make_view(scene: dict, sections: list[Section]) -> View:
     elif ice:
         half, thickness = 0.52 * ice["length"], ice["thickness"]
         low, high = ice["lower_face"] - 0.5 * thickness, ice["lower_face"] + 1.6 * thickness
+    elif fluid.get("bodies"):
+        half, low, high = about_bodies(fluid["bodies"].values())
+        half, low, high = min(half, fluid["length"] / 2), max(low, fluid["bottom"]), min(high, fluid["top"])
     else:
         half, low, high = fluid["length"] / 2, fluid["bottom"], fluid["top"]
     window = (0, fluid["length"]) if fluid.get("dam") else (-half, half)
     largest = max(pressures, default=0.0)
     return View(scene, window, (low, high), Normalize(0, max(stresses, default=1.0) or 1.0),
                 pressure_scale(largest) if largest > 0 else None)
+
+
+def about_bodies(bodies) -> tuple[float, float, float]:
+    """Half width and both ends in z of a window on all that bodies pass through, with two sizes of the largest around."""
+    room = 2 * max(body["size"] for body in bodies)
+    half = max(max(abs(body["low"][0]), abs(body["high"][0])) for body in bodies) + room
+    return half, min(body["low"][2] for body in bodies) - room, max(body["high"][2] for body in bodies) + room
 
 
 def pressure_scale(largest: float) -> SymLogNorm:

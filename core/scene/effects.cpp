@@ -1,5 +1,6 @@
 #include "core/scene/effects.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 
@@ -71,6 +72,8 @@ Decision gravity(const Scene& scene) {
   if (scene.ice && scene.ice->ball) return {false, "a blow of milliseconds; the weight is far below its force"};
   if (scene.ice && scene.ice->bending)
     return {false, "a floating beam carries no weight between its rollers; only the rollers bend it"};
+  if (scene.fluid && scene.fluid->bodies)
+    return {true, "the water starts hydrostatic; forces on bodies have their buoyancy in them"};
   return {true,
           scene.fluid ? "weight acts on the solids and the water starts hydrostatic" : "weight acts on the solids"};
 }
@@ -122,6 +125,12 @@ Decision sleeping(const Scene& scene) {
   char bound[80];
   std::snprintf(bound, sizeof bound, "disturbances below %g of sound speed and bulk modulus are dropped",
                 scene.fluid->sleeping_threshold);
+  const auto moves = [](const auto& item) {
+    return std::any_of(item.second.velocity.begin(), item.second.velocity.begin() + 3, [](double u) { return u != 0; });
+  };
+  const auto& bodies = scene.fluid->bodies;
+  if (bodies && scene.fluid->start == "potential_flow" && std::any_of(bodies->begin(), bodies->end(), moves))
+    return {false, "the flow around a body that moves from the start fills the water: nothing is at rest"};
   if (scene.vehicle && scene.fluid->start == "potential_flow")
     return {false, "the flow around the moving vehicle fills the water from the start: nothing is at rest"};
   return {true, std::string("the fluid starts at rest; ") + bound};

@@ -49,6 +49,21 @@ GridLines dam_lines(const Scene& scene) {
   return lines;
 }
 
+/// Vertical lines about bodies: fine where they pass and half of the largest around, growing away from there. A node at
+/// the waterline where that lies in the fine part.
+std::vector<double> line_about_bodies(const Scene& scene) {
+  const auto& fluid = *scene.fluid;
+  const double cell = scene.resolution.cell, anchor = fluid.waterline;
+  double low = fluid.top, high = fluid.bottom;
+  for (const auto& [name, body] : *fluid.bodies) {
+    low = std::min(low, body.low[2] - 0.5 * body.size);
+    high = std::max(high, body.high[2] + 0.5 * body.size);
+  }
+  low = std::max(fluid.bottom, anchor + std::floor((low - anchor) / cell + 1e-9) * cell);
+  high = std::min(fluid.top, anchor + std::ceil((high - anchor) / cell - 1e-9) * cell);
+  return graded_line(fluid.bottom, fluid.top, low, high, cell, scene.resolution.growth);
+}
+
 /// Vertical lines: growing below the fine part, then equal cells in pieces that end at both faces of the ice.
 std::vector<double> vertical_line(const Scene& scene) {
   const auto& fluid = *scene.fluid;
@@ -87,7 +102,7 @@ GridLines fluid_grid_lines(const Scene& scene) {
   GridLines lines;
   place(lines, scene.symmetry, half_line(0.5 * scene.fluid->length, r.fine_radius, r.cell, r.growth, no_limit),
         half_line(0.5 * scene.fluid->width, r.fine_radius, r.cell, r.growth, no_limit));
-  lines.z = vertical_line(scene);
+  lines.z = scene.fluid->bodies ? line_about_bodies(scene) : vertical_line(scene);
   return lines;
 }
 

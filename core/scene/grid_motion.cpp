@@ -65,7 +65,7 @@ void read_grid_motion(const Values& values, Scene& scene) {
     const std::string path = std::string("fluid.grid_motion.") + name + ".";
     *axis = read_axis(values, path);
     if (rests(*axis)) continue;
-    if (scene.vehicle || scene.ice)
+    if (scene.vehicle || scene.ice || scene.fluid->bodies)
       values.fail(path + "speed",
                   "the grid cannot move around solids in this version; allowed with [tube], or with [water] and [air] "
                   "around no solid");

@@ -9,6 +9,8 @@ namespace polynya::scene {
 Vehicle read_vehicle(const Values& values);
 /// Fills in the hull of a file and its box (needs the scene's folder for its path); vehicle without a file: nothing.
 void read_hull_file(const Values& values, Vehicle& vehicle);
+/// Metres per unit of a file of a surface; refuses "none".
+double file_unit(const Values& values, const std::string& key);
 /// The smallest symmetry that the start of the vehicle allows: quarter unless it lies or moves askew.
 Symmetry natural_symmetry(const Values& values);
 /// Point masses; refuses what the symmetry or a deformable vehicle does not allow. Needs place and effects.
@@ -19,6 +21,16 @@ Ice read_ice(const Values& values);
 Tube read_tube(const Values& values);
 /// Fills scene.fluid with the tank and its column.
 void read_dam(const Values& values, Scene& scene);
+/// Fills in the fluid's bodies with what they pass through; needs the end of the run.
+void read_bodies(const Values& values, Scene& scene);
+/// Half width of the fluid about the axis that bodies pass through, with room about them, and the largest extent of a
+/// body, m.
+double reach_of_bodies(const Scene& scene);
+double largest_body(const Scene& scene);
+/// The smallest symmetry that all bodies allow: quarter unless one lies, is turned or moves askew.
+Symmetry symmetry_of_bodies(const Values& values);
+/// Refuses bodies outside the fluid, across planes of symmetry they have not, or that meet. Needs the fluid's extent.
+void check_bodies(const Values& values, const Scene& scene);
 /// z of the nose and checks against ice and water.
 void place_vehicle(const Values& values, Scene& scene);
 /// Latest end, frame interval.

@@ -102,7 +102,7 @@ void check_dam(const Document& document, const Values& values) {
 void check_sections(const Document& document, const Values& values) {
   const auto& file = document.file.string();
   if (values.has("tube")) {
-    for (const std::string other : {"vehicle", "ice", "water", "air"})
+    for (const std::string other : {"vehicle", "ice", "water", "air", "body"})
       if (values.has(other))
         throw SceneError(document.tables.at(other) + ": [" + other + "] cannot stand beside [tube]; remove one");
     for (const auto& [path, entry] : document.values)
@@ -117,6 +117,12 @@ void check_sections(const Document& document, const Values& values) {
     return;
   }
   if (values.has("dam")) check_dam(document, values);
+  if (values.has("body"))
+    for (const std::string other : {"vehicle", "ice", "dam"})
+      if (values.has(other))
+        throw SceneError(document.tables.at(other) + ": [" + other + "] cannot stand beside [body]; remove one");
+  if (values.has("body") && !values.has("water"))
+    throw SceneError(document.tables.at("body") + ": [body] needs [water] and [air] around it");
   if (values.has("water") != values.has("air"))
     throw SceneError(document.tables.at(values.has("water") ? "water" : "air") +
                      ": [water] and [air] come together; add [" + (values.has("water") ? "air" : "water") + "]");
@@ -125,9 +131,9 @@ void check_sections(const Document& document, const Values& values) {
   if (values.has("fluid") && !values.has("water"))
     throw SceneError(document.tables.at("fluid") + ": [fluid] needs [water] and [air]");
   if (!values.has("vehicle") && !values.has("ice") && !values.has("water"))
-    throw SceneError(
-        file +
-        ": an empty scene; it needs [vehicle], [ice], [water] with [air], [water] with [air] and [dam], or [tube]");
+    throw SceneError(file +
+                     ": an empty scene; it needs [vehicle], [ice], [water] with [air], [water] with [air] and "
+                     "[dam] or [body.NAME], or [tube]");
 }
 
 Symmetry symmetry_of(const Values& values, const std::string& wish_for_effect) {
@@ -141,6 +147,7 @@ Symmetry symmetry_of(const Values& values, const std::string& wish_for_effect) {
     return Symmetry::full;
   }
   if (wish_for_effect == "off") return Symmetry::full;
+  if (name == "auto" && values.has("body")) return symmetry_of_bodies(values);
   if (name == "auto") return values.has("vehicle") ? natural_symmetry(values) : Symmetry::quarter;
   return name == "full" ? Symmetry::full : name == "half" ? Symmetry::half : Symmetry::quarter;
 }
@@ -175,6 +182,7 @@ void read_parts(const Values& values, Scene& scene) {
   if (scene.vehicle) check_hull(values, *scene.vehicle, scene.material(scene.vehicle->material));
   if (scene.vehicle) place_vehicle(values, scene);
   read_run(values, scene);
+  if (values.has("body")) scene.fluid.emplace(), read_bodies(values, scene);
   read_resolution(values, scene);
   if (values.has("tube")) {
     scene.fluid.emplace().tube = read_tube(values);
@@ -184,7 +192,8 @@ void read_parts(const Values& values, Scene& scene) {
   if (values.has("dam"))
     scene.fluid.emplace(), read_dam(values, scene);
   else if (values.has("water"))
-    scene.fluid.emplace(), read_fluid(values, scene);
+    read_fluid(values, scene);
+  if (scene.fluid && scene.fluid->bodies) check_bodies(values, scene);
   if (scene.fluid) read_grid_motion(values, scene);
 }
 

@@ -12,6 +12,7 @@ constexpr double reserve = 1.5;           // of the expected duration
 constexpr double plug_factor = 2.6;       // thicknesses travelled until the broken plug lets go of the head
 constexpr double frames = 30;             // of a run, by default
 constexpr int open_water_diameters = 20;  // lateral extent without ice
+constexpr int open_water_bodies = 10;     // lateral extent around bodies alone
 constexpr int cells_above_nose = 2;
 constexpr int cells_below_tail = 6;
 constexpr double largest_cells_across = 20000;  // per direction: more is a slip of units
@@ -89,7 +90,8 @@ void read_resolution(const Values& values, Scene& scene) {
   r.ice_element = values.number("resolution.ice_element", r.cell);
   r.vehicle_element = values.number("resolution.vehicle_element", std::min(r.cell, 0.1 * diameter));
   const double aside = scene.vehicle ? way_aside(scene) : 0;
-  r.fine_radius = values.number("resolution.fine_radius", 2 * diameter + aside);
+  const bool bodies = scene.fluid && scene.fluid->bodies;
+  r.fine_radius = values.number("resolution.fine_radius", bodies ? reach_of_bodies(scene) : 2 * diameter + aside);
   r.ice_fine_radius = values.number("resolution.ice_fine_radius", 3 * diameter + aside);
   r.growth = values.number("resolution.growth");
   r.largest_ice_element = values.number("resolution.largest_ice_element");
@@ -150,10 +152,12 @@ void choose_ice_start(const Values& values, Scene& scene) {
 }
 
 void read_fluid(const Values& values, Scene& scene) {
+  if (!scene.fluid) scene.fluid.emplace();
   auto& f = *scene.fluid;
   const auto& v = scene.vehicle;
   const double cell = scene.resolution.cell;
-  const double open_water = (v ? v->diameter : 10 * cell) * open_water_diameters;
+  const double open_water =
+      f.bodies ? open_water_bodies * largest_body(scene) : (v ? v->diameter : 10 * cell) * open_water_diameters;
   f.length = values.number("fluid.length", scene.ice ? scene.ice->length : open_water);
   f.width = values.number("fluid.width", scene.ice ? scene.ice->width : open_water);
   f.water = values.text("water.material"), f.air = values.text("air.material");

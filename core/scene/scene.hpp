@@ -136,6 +136,22 @@ struct GridMotion {
   AxisMotion x, y, z;
 };
 
+/// A rigid body in the fluid whose motion is prescribed (core/scene/body_motion.hpp).
+struct Body {
+  std::string shape;                                       ///< "sphere", "cylinder", "box", "wedge" or "file"
+  double diameter = 0, length = 0, width = 0, height = 0;  ///< m, those of the shape; else 0
+  std::string file;                                        ///< full path
+  double unit = 0;                                         ///< m per unit of the file
+  std::vector<double> position;                            ///< [3] m, of the reference point at the start
+  std::vector<double> angles;                              ///< [3] rad, turned about x, then y, then z
+  std::vector<double> times, velocity;  ///< s from 0 on, and [times][3] m/s: linear between, held after the last
+  std::string rotation_axis;            ///< "x", "y" or "z", through the reference point
+  std::vector<double> rotation_times, rotation_rate;  ///< s and rad/s, likewise
+  std::vector<double> low, high;                      ///< [3] m, corners of the box that it passes through
+  double size = 0;                                    ///< m, its largest extent at the start
+  double volume = 0;                                  ///< m^3
+};
+
 struct Fluid {
   double length = 0, width = 0;     ///< m, lateral extent of the full domain (x, y)
   double bottom = 0, top = 0;       ///< m, z
@@ -150,7 +166,8 @@ struct Fluid {
   std::optional<GridMotion> grid_motion;
   double sleeping_threshold = 0;  ///< relative disturbance below which cells sleep; 0: none does
   std::optional<Dam> dam;         ///< then the fluid is a tank with walls, x from 0 to length, z from 0 to top
-  std::optional<Tube> tube;       ///< then the fluid is a one-dimensional tube and nothing else above holds
+  std::optional<std::map<std::string, Body>> bodies;  ///< by name; absent: none
+  std::optional<Tube> tube;  ///< then the fluid is a one-dimensional tube and nothing else above holds
 };
 
 struct Contact {

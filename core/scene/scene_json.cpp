@@ -103,6 +103,17 @@ void members(Part& p, Visit&& visit) {
 }
 
 template <class Part, class Visit>
+requires std::is_same_v<std::remove_const_t<Part>, Body>
+void members(Part& p, Visit&& visit) {
+  visit("shape", p.shape), visit("diameter", p.diameter), visit("length", p.length), visit("width", p.width);
+  visit("height", p.height), visit("file", p.file), visit("unit", p.unit), visit("position", p.position);
+  visit("angles", p.angles), visit("times", p.times), visit("velocity", p.velocity);
+  visit("rotation_axis", p.rotation_axis), visit("rotation_times", p.rotation_times);
+  visit("rotation_rate", p.rotation_rate), visit("low", p.low), visit("high", p.high), visit("size", p.size);
+  visit("volume", p.volume);
+}
+
+template <class Part, class Visit>
 requires std::is_same_v<std::remove_const_t<Part>, Fluid>
 void members(Part& p, Visit&& visit) {
   visit("length", p.length), visit("width", p.width), visit("bottom", p.bottom), visit("top", p.top);
@@ -111,6 +122,7 @@ void members(Part& p, Visit&& visit) {
   visit("start", p.start), visit("outer_boundary", p.outer_boundary);
   visit("shock_viscosity", p.shock_viscosity), visit("sweeps", p.sweeps), visit("grid_motion", p.grid_motion);
   visit("sleeping_threshold", p.sleeping_threshold), visit("dam", p.dam), visit("tube", p.tube);
+  visit("bodies", p.bodies);
 }
 
 template <class Part, class Visit>

@@ -54,7 +54,8 @@ std::vector<KeyRule> general_rules() {
   return {
       text("title", "the case's name", "one line about the scene"),
       choice("symmetry", {"auto", "full", "half", "quarter"}, "auto",
-             "modelled part: half is y >= 0, quarter x >= 0 and y >= 0; auto: quarter (a tube or a dam: full)"),
+             "modelled part: half is y >= 0, quarter x >= 0 and y >= 0; auto: quarter (a tube or a dam: full; with a "
+             "vehicle or bodies as far as they and their motion allow)"),
       choice("run.end", {"auto", "ice_passed", "exited", "time"}, "auto",
              "what ends the run before `end_time`: nose past the ice, tail above the ice (without ice: above the "
              "waterline); "
@@ -74,7 +75,8 @@ std::vector<KeyRule> general_rules() {
       positive("resolution.vehicle_element", dim::length, "auto",
                "along the vehicle; auto: the smaller of `cell` and a tenth of the diameter"),
       positive("resolution.fine_radius", dim::length, "auto",
-               "half width of the fluid's fine region about the axis; auto: 2 diameters"),
+               "half width of the fluid's fine region about the axis; auto: 2 diameters; with bodies as far as they "
+               "reach and half of the largest"),
       positive("resolution.ice_fine_radius", dim::length, "auto",
                "half width of the ice's fine region about the axis; auto: 3 diameters"),
       number("resolution.growth", dim::none, "1.15", "largest ratio of neighbouring cells outside", 1, 2),
@@ -175,7 +177,7 @@ std::vector<KeyRule> fluid_rules() {
                "above the ice's upper face or the waterline; raised to hold the vehicle until the end"),
       number("air.pressure", dim::pressure, "101325 Pa", "atmospheric pressure", 0),
       positive("fluid.length", dim::length, "auto",
-               "along x, of the full domain; auto: the ice's, 20 diameters without ice"),
+               "along x, of the full domain; auto: the ice's, 20 diameters without ice, 10 times the largest body"),
       positive("fluid.width", dim::length, "auto", "along y, likewise"),
       choice("fluid.start", {"potential_flow", "impulsive"}, "potential_flow",
              "state of the water around the moving vehicle"),
@@ -223,6 +225,35 @@ std::vector<KeyRule> fluid_rules() {
   return rules;
 }
 
+std::vector<KeyRule> body_rules() {
+  const std::string body = "body.NAME.";
+  return {
+      choice(
+          body + "shape", {"sphere", "cylinder", "box", "wedge", "file"}, "required",
+          "of a rigid body whose motion is prescribed, NAME any word; [water] and [air] with such bodies and no other "
+          "solid run alone"),
+      positive(body + "diameter", dim::length, "auto", "of a sphere or cylinder, which need it"),
+      positive(body + "length", dim::length, "auto", "along x, of a box or of the top of a wedge"),
+      positive(body + "width", dim::length, "auto", "along y, of a box or a wedge, whose edge is as long"),
+      positive(body + "height", dim::length, "auto",
+               "along z, of a cylinder (its axis), a box or a wedge (edge down, flat top)"),
+      text(body + "file", "none", "closed surface: STL, OBJ or PLY file, relative to the scene"),
+      choice(body + "file_unit", {"none", "m", "cm", "mm", "um", "in", "ft"}, "none",
+             "unit of its coordinates; must be given with file"),
+      text(body + "position", "required",
+           "of the reference point at the start, \"0, 0, -30 mm\": the centre; of a wedge the middle of its edge, of a "
+           "file its origin"),
+      text(body + "angles", "0, 0, 0", "turned about x, then y, then z through that point, e.g. \"0, 20 deg, 0\""),
+      text(
+          body + "velocity", "0, 0, 0",
+          "of that point, constant or over time: \"0, 0, 0 at 0; 0, 0, 1 m/s at 1 ms\"; linear between, held after the "
+          "last"),
+      text(body + "rotation_rate", "0",
+           "about `rotation_axis`, likewise: \"100 rad/s\" or \"0 at 0; 100 rad/s at 1 ms\""),
+      choice(body + "rotation_axis", {"x", "y", "z"}, "z", "through that point, right-handed"),
+  };
+}
+
 std::vector<KeyRule> record_rules() {
   std::vector<KeyRule> rules{
       number("checkpoint.interval", dim::time, "0",
@@ -248,7 +279,8 @@ std::vector<KeyRule> record_rules() {
 
 std::vector<KeyRule> all_rules() {
   auto rules = general_rules();
-  for (auto& part : {solid_rules(), fluid_rules(), record_rules()}) rules.insert(rules.end(), part.begin(), part.end());
+  for (auto& part : {solid_rules(), fluid_rules(), body_rules(), record_rules()})
+    rules.insert(rules.end(), part.begin(), part.end());
   for (const auto& name : effect_names())
     rules.push_back(choice("effects." + name, {"auto", "on", "off"}, "auto", "see the effects below"));
   for (const std::string name : {"structure", "ice", "fluid"}) {
@@ -274,9 +306,17 @@ const std::vector<KeyRule>& schema() {
   return rules;
 }
 
+std::string general_path(const std::string& path) {
+  const std::string named = "body.";
+  if (!path.starts_with(named) || path.size() == named.size()) return path;
+  const auto dot = path.find('.', named.size());
+  return named + "NAME" + (dot == std::string::npos ? "" : path.substr(dot));
+}
+
 const KeyRule* find_rule(const std::string& path) {
+  const std::string general = general_path(path);
   for (const KeyRule& rule : schema())
-    if (rule.path == path) return &rule;
+    if (rule.path == general) return &rule;
   return nullptr;
 }
 

@@ -25,6 +25,9 @@ struct KeyRule {
 /// Every key of a scene file except [level.*] and [materials.*], in the order of the documentation.
 const std::vector<KeyRule>& schema();
 
+/// The path under which the schema has a key or table: the user's names of bodies become NAME.
+std::string general_path(const std::string& path);
+
 /// The rule of a key, null if there is none.
 const KeyRule* find_rule(const std::string& path);
 

@@ -33,8 +33,9 @@ const KeyRule& rule_of(const std::string& path) {
 }
 
 bool is_table(const std::string& path) {
+  const std::string general = general_path(path) + ".";
   for (const KeyRule& rule : schema())
-    if (rule.path.starts_with(path + ".")) return true;
+    if (rule.path.starts_with(general)) return true;
   return path == "materials" || path.starts_with("materials.");
 }
 
@@ -91,9 +92,10 @@ std::string elsewhere(const std::string& path) {
   return {};
 }
 
-[[noreturn]] void fail_unknown(const std::string& where, const std::string& path, const std::string& kind,
+[[noreturn]] void fail_unknown(const std::string& where, const std::string& given, const std::string& kind,
                                const std::vector<std::string>& candidates) {
-  std::string message = where + ": unknown " + kind + " '" + path + "'";
+  std::string message = where + ": unknown " + kind + " '" + given + "'";
+  const std::string path = general_path(given);
   if (const auto tables = sibling_tables(path); kind == "table" && !tables.empty())
     throw SceneError(message + "; allowed here: " + tables);
   auto near = nearest(path, candidates);
@@ -131,6 +133,14 @@ void Values::fail(const std::string& path, const std::string& what) const {
   const auto table = document_.tables.find(path.substr(0, std::max<std::size_t>(path.rfind('.'), 1)));
   const auto where = table != document_.tables.end() ? table->second : document_.file.string();
   throw SceneError(where + ": " + path + ": " + what);
+}
+
+std::vector<std::string> Values::tables_below(const std::string& table) const {
+  std::vector<std::string> names;
+  for (const auto& [path, where] : document_.tables)
+    if (path.starts_with(table + ".") && path.find('.', table.size() + 1) == std::string::npos)
+      names.push_back(path.substr(table.size() + 1));
+  return names;
 }
 
 std::optional<double> Values::given(const std::string& path) const {

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/scene/document.hpp"
 
@@ -25,6 +26,8 @@ class Values {
   bool has(const std::string& table) const { return document_.tables.contains(table); }
   /// True if the file has the key.
   bool is_given(const std::string& path) const { return document_.values.contains(path); }
+  /// Names of the tables directly below one that holds tables of the user's names.
+  std::vector<std::string> tables_below(const std::string& table) const;
   /// Where relative paths of the scene start.
   std::filesystem::path folder() const { return document_.file.parent_path(); }
   /// Throws SceneError: place, key and value, then `what`.

@@ -73,6 +73,13 @@ geometry::ImportedHull import(const Values& values, const HullFile& h) {
 
 }  // namespace
 
+double file_unit(const Values& values, const std::string& key) {
+  const std::string unit = values.text(key);
+  if (unit == "none")
+    values.fail(key, "missing; a file of a surface does not say its unit; must be m, cm, mm, um, in or ft");
+  return file_units.at(unit);
+}
+
 Symmetry natural_symmetry(const Values& values) {
   if (has_file(values)) return Symmetry::full;
   Symmetry found = Symmetry::quarter;
@@ -92,11 +99,7 @@ void read_hull_file(const Values& values, Vehicle& v) {
     if (values.is_given("vehicle." + key))
       values.fail("vehicle." + key, "cannot stand beside vehicle.surface_file, which gives the shape; leave it out");
   HullFile h;
-  const std::string unit = values.text("vehicle.file_unit");
-  if (unit == "none")
-    values.fail("vehicle.file_unit",
-                "missing; a file of a surface does not say its unit; must be m, cm, mm, um, in or ft");
-  h.unit = file_units.at(unit);
+  h.unit = file_unit(values, "vehicle.file_unit");
   h.file = std::filesystem::absolute(values.folder() / values.text("vehicle.surface_file")).lexically_normal().string();
   h.nose = values.text("vehicle.file_nose"), h.repair = values.text("vehicle.repair");
   h.wrap_alpha = values.number("vehicle.wrap_alpha", 0), h.wrap_offset = values.number("vehicle.wrap_offset", 0);

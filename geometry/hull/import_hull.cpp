@@ -94,6 +94,18 @@ ImportedHull import_hull(const std::string& path, const HullOptions& options) {
   return hull;
 }
 
+TriangleSoup import_body(const std::string& path, double scale) {
+  const TriangleSoup soup = read_surface(path);
+  try {
+    TriangleSoup surface = make_boundary(soup, true).outer;
+    for (Point& p : surface.points)
+      for (double& c : p) c *= scale;
+    return surface;
+  } catch (const GeometryError& error) {
+    throw GeometryError(path + ": " + error.what() + "; repair it");
+  }
+}
+
 void split_long_edges(TriangleSoup& surface, double longest) {
   for (bool split = true; split;) {
     split = false;

@@ -34,6 +34,10 @@ struct ImportedHull {
 /// coordinates of the file).
 ImportedHull import_hull(const std::string& path, const HullOptions& options);
 
+/// The outer surface of a body from a file, where the file has it, in m (`scale` m per unit of the file): checked, and
+/// repaired as by Repair::safe. GeometryError likewise.
+TriangleSoup import_body(const std::string& path, double scale);
+
 /// Halves edges longer than this (m) until there are none; the surface stays where it is.
 void split_long_edges(TriangleSoup& surface, double longest);
 

@@ -23,7 +23,8 @@ def run(arguments: argparse.Namespace) -> int:
                 [swap.front(scene, name, processes.PROGRAMS[name])] if setting}
     if arguments.json:
         keys = ("name", "title", "level", "symmetry", "estimate", "effects")
-        print(json.dumps({**{key: scene.get(key) for key in keys}, "processes": programs, "commands": commands}))
+        print(json.dumps({**{key: scene.get(key) for key in keys}, "bodies": bodies_of(scene), "processes": programs,
+                          "commands": commands}))
     else:
         print_explanation(scene, programs, commands)
     scenes.refuse_what_does_not_fit(scene)
@@ -37,6 +38,9 @@ def print_explanation(scene: dict, programs: list[str], commands: dict[str, list
     for name, words in commands.items():
         console.print(f"[dim]{name:<9}[/]  {escape(shlex.join(words))}", soft_wrap=True)
     console.print()
+    if bodies_of(scene):
+        console.print(bodies_table(bodies_of(scene)))
+        console.print()
     estimate = scene.get("estimate") or {}
     console.print(cost_table(estimate))
     verdict = "[green]fits[/]" if estimate.get("fits") else "[bold red]does not fit[/]"
@@ -44,6 +48,36 @@ def print_explanation(scene: dict, programs: list[str], commands: dict[str, list
     effects = {name: {**effect, "state": "on" if effect["active"] else "off"}
                for name, effect in (scene.get("effects") or {}).items()}
     console.print(report.effects_table(effects))
+
+
+def bodies_of(scene: dict) -> dict[str, dict]:
+    """Bodies whose motion the scene prescribes, by name."""
+    return (scene.get("fluid") or {}).get("bodies") or {}
+
+
+def bodies_table(bodies: dict[str, dict]) -> Table:
+    table = Table(box=None, padding=(0, 2, 0, 0), header_style="dim")
+    for title in ("body", "shape", "volume", "at [mm]", "velocity [m/s]", "turns [rad/s]"):
+        table.add_column(title, no_wrap=title == "velocity [m/s]")
+    for name, body in bodies.items():
+        velocities = [body["velocity"][i:i + 3] for i in range(0, len(body["velocity"]), 3)]
+        table.add_row(
+            escape(name), body["shape"], f"{body['volume'] * 1e6:.4g} cm³", triple(body["position"], 1e3),
+            over_time(body["times"], [triple(velocity) for velocity in velocities]),
+            f"{body['rotation_axis']}: " + over_time(body["rotation_times"], [f"{r:g}" for r in body["rotation_rate"]])
+            if any(body["rotation_rate"]) else "no")
+    return table
+
+
+def triple(values: list[float], factor: float = 1.0) -> str:
+    return ", ".join(f"{value * factor:g}" for value in values)
+
+
+def over_time(times: list[float], words: list[str]) -> str:
+    """A table of a motion: its entries with their times; one that stays is said once."""
+    if len(words) == 1:
+        return words[0]
+    return "\n".join(f"{word} at {units.readable(time, 's')}" for time, word in zip(times, words))
 
 
 def steps_line(estimate: dict) -> str:

@@ -157,3 +157,32 @@ TEST(SurfaceCheck, NamesWhatIsWrong) {
   folded.positions[0] *= -1.5, folded.positions[1] *= -1.5, folded.positions[2] *= -1.5;
   EXPECT_TRUE(check_surface(folded.positions, folded.triangles).self_intersects);
 }
+
+TEST(ExactCut, AgreesInCellsThatTwoTouchingSpheresShare) {
+  // Vertices of an icosahedron: opposite ones touch when the spheres stand two radii apart along that diameter.
+  const double g = (1.0 + std::sqrt(5.0)) / 2.0, unit = 1 / std::sqrt(1 + g * g), radius = 0.5;
+  Shape lower = shapes::sphere(2), upper = lower;
+  const shapes::Vector step{-unit, g * unit, 0};
+  shapes::scale_and_move(lower, {radius, radius, radius}, {0.013, -0.5, 0.021});
+  shapes::scale_and_move(upper, {radius, radius, radius},
+                         {0.013 + 2 * radius * step[0], -0.5 + 2 * radius * step[1], 0.021 + 2 * radius * step[2]});
+  CutCells cut;
+  Cutter(grid).cut(std::array{lower.surface(), upper.surface()}, cut);
+  EXPECT_GT(cut.shared_cells, 0);
+  EXPECT_EQ(cut.overlapping_cells, 0);
+  std::size_t both = 0;
+  double total = 0;
+  for (std::size_t e = 0; e < cut.cell.size(); ++e) {
+    const double cell = grid.cell_volume(cut.cell[e]);
+    total += cut.solid_volume[e];
+    if (cut.body_volume[2 * e] <= 0 || cut.body_volume[2 * e + 1] <= 0) continue;
+    ++both;
+    const double first = exact_cut(grid, cut.cell[e], lower.surface()).volume,
+                 second = exact_cut(grid, cut.cell[e], upper.surface()).volume;
+    EXPECT_NEAR(cut.body_volume[2 * e], first, 1e-12 * cell);
+    EXPECT_NEAR(cut.body_volume[2 * e + 1], second, 1e-12 * cell);
+    EXPECT_NEAR(cut.solid_volume[e], first + second, 1e-12 * cell);  // with what is left free: the cell
+  }
+  EXPECT_GT(both, 0u);
+  EXPECT_NEAR(total, shapes::volume(lower) + shapes::volume(upper), 1e-12);
+}
