@@ -93,7 +93,7 @@ results::UnstructuredFields particle_fields(const IceBody& ice) {
 }
 
 IceFrames::IceFrames(const std::string& run_folder)
-    : elements_(run_folder, "ice"), particles_(run_folder, "particles") {}
+    : folder_(run_folder + "/fields"), elements_(run_folder, "ice"), particles_(run_folder, "particles") {}
 
 void IceFrames::write(int number, const IceBody& ice) {
   elements_.write(number, element_fields(ice), ice.solid.time);

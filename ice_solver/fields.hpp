@@ -12,10 +12,14 @@ class IceFrames {
  public:
   explicit IceFrames(const std::string& run_folder);
   void write(int number, const IceBody& ice);
+  std::size_t count() const { return elements_.count(); }
+  double last_time() const { return elements_.last_time(); }
+  const std::string& folder() const { return folder_; }
 
-  POLYNYA_STATE(elements_, particles_)
+  POLYNYA_STATE_WITHOUT((folder_), folder_, elements_, particles_)
 
  private:
+  std::string folder_;  ///< RUN/fields
   results::FrameSeries elements_, particles_;
 };
 

@@ -13,6 +13,7 @@ nlohmann::json last_words(const IceRun& run) {
           {"converted_by_strain", converted.strained},
           {"converted_by_collapse", converted.collapsed},
           {"particles", a.particles},
+          {"density_bounded", run.ice.particles.steps_at_bound},
           {"elements", run.ice.solid.element_count()},
           {"nodes", run.ice.solid.node_count()},
           {"steps", run.steps},

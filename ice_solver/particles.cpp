@@ -75,6 +75,8 @@ void update(Particles& p, const L& law, double dt) {
     }
   });
   p.settled = p.count();
+  for (std::size_t i = 0; i < p.count(); ++i)
+    if (p.relative_volume[i] >= largest_relative_volume) p.steps_at_bound += 1;
 }
 
 template <class L>

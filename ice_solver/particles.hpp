@@ -20,11 +20,12 @@ struct Particles {
   std::vector<double> approach_speed;     ///< [n], m/s, of the neighbour that approaches fastest
   std::vector<double> acceleration;       ///< [n][3], m/s^2
   std::size_t settled = 0;                ///< particles from here on were born in this step
+  std::size_t steps_at_bound = 0;         ///< how often a particle's density was kept at its lower bound
 
   std::size_t count() const { return points.count(); }
 
   POLYNYA_STATE(points, element, relative_volume, damage, plastic_strain, bulking_pressure, stress_work,
-                velocity_gradient, approach_speed, acceleration, settled)
+                velocity_gradient, approach_speed, acceleration, settled, steps_at_bound)
 };
 
 /// What a particle starts with: the state of its element.
@@ -40,7 +41,7 @@ void add_particle(Particles& particles, const continuum::Law& law, const Particl
 
 /// Stress, damage, density and stress work over one step of dt from the velocity gradients, by the law of the elements.
 /// The work is the mean of the powers of the old and the new stress. A particle far from all others keeps a hundredth
-/// of its density at least.
+/// of its density at least; every step in which one does counts in steps_at_bound.
 void update_particle_stress(Particles& particles, const continuum::Law& law, double dt);
 
 /// 0.3 h / (c + approach speed), the least of all particles; 1e300 if there is none. Loose rubble (fully damaged and

@@ -8,7 +8,7 @@
 #include "core/results/time_series.hpp"
 #include "ice_solver/account.hpp"
 #include "ice_solver/bending_record.hpp"
-#include "ice_solver/fields.hpp"
+#include "ice_solver/last_good.hpp"
 #include "ice_solver/rigid_target.hpp"
 #include "ice_solver/run.hpp"
 #include "ice_solver/scene_options.hpp"
@@ -134,8 +134,9 @@ struct Course {
   double peak_force = 0;   ///< N, of a plate that a ball hits
   IceFrames frames;
   results::TimeSeries series;
+  LastGood last_good = {};
 
-  POLYNYA_STATE(run, experiment, dt, frame, row, peak_force, frames, series)
+  POLYNYA_STATE_WITHOUT((last_good), run, experiment, dt, frame, row, peak_force, frames, series, last_good)
 };
 
 void save(Course& course) {
@@ -174,10 +175,11 @@ nlohmann::json run_alone(IceRun& run) {
                 .experiment = {},
                 .frames = IceFrames(run.folder),
                 .series = results::TimeSeries(run.folder + "/series/ice.csv", columns(), run.opening())};
-  auto& [same_run, experiment, dt, frame, row, peak_force, frames, series] = course;
+  auto& [same_run, experiment, dt, frame, row, peak_force, frames, series, last_good] = course;
   auto& rig = experiment.rig = rig_of(run);
   const double interval = settings.frame_interval > 0 ? settings.frame_interval : settings.end_time;
   begin(course);
+  last_good.keep(ice);
   results::CheckpointSchedule schedule(run.scene.checkpoint.interval, run.scene.checkpoint.wall_interval,
                                        ice.solid.time);
   while (true) {
@@ -197,7 +199,7 @@ nlohmann::json run_alone(IceRun& run) {
     convert_failed_elements(ice);
     if (rig) move_rollers(*rig, ice, ice.solid.time, dt);
     advance_positions(ice, dt);
-    internal_forces(ice, dt);
+    last_good.internal_forces(ice, dt, frames);
     const double next = std::min(settings.step_factor * stable_step(ice), 1.1 * dt);
     load_ice(experiment, ice);
     advance_velocities(ice, experiment.node_loads, experiment.particle_loads, dt, next);

@@ -5,8 +5,8 @@
 #include "core/compute/equal_steps.hpp"
 #include "core/compute/threads.hpp"
 #include "ice_solver/account.hpp"
-#include "ice_solver/fields.hpp"
 #include "ice_solver/ice_surface.hpp"
+#include "ice_solver/last_good.hpp"
 #include "ice_solver/run.hpp"
 
 namespace polynya::ice {
@@ -76,15 +76,30 @@ double own_step(const IceRun& run, double left) {
   return compute::equal_step(left, run.scene.run.step_factor * stable_step(run.ice));
 }
 
+/// What goes on from window to window.
+struct Course {
+  IceRun& run;
+  IceSurface surface;
+  double dt = 0;    ///< s
+  long window = 0;  ///< the next one
+  IceFrames frames;
+  std::vector<double> node_loads, particle_loads;  ///< N; of nodes only while they act
+  LastGood last_good = {};
+
+  POLYNYA_STATE_WITHOUT((node_loads, particle_loads, last_good), run, surface, dt, window, frames, node_loads,
+                        particle_loads, last_good)
+};
+
 /// Steps of a free window but for its last one, whose length is returned: no loads, and no messages.
-double advance_freely(IceRun& run, IceSurface& surface, double step, double left) {
+double advance_freely(Course& course, double step, double left) {
+  IceRun& run = course.run;
   bool changed = run.ice.topology_changed;
   while (left > 0) {
     const double next = own_step(run, left);
     advance_positions(run.ice, step);
-    internal_forces(run.ice, step);
+    course.last_good.internal_forces(run.ice, step, course.frames);
     advance_velocities(run.ice, {}, {}, step, next);
-    convert(run, surface);
+    convert(run, course.surface);
     changed = changed || run.ice.topology_changed;
     note_step(run, step);
     left -= next;
@@ -94,24 +109,12 @@ double advance_freely(IceRun& run, IceSurface& surface, double step, double left
   return step;
 }
 
-/// What goes on from window to window.
-struct Course {
-  IceRun& run;
-  IceSurface surface;
-  double dt = 0;    ///< s
-  long window = 0;  ///< the next one
-  IceFrames frames;
-  std::vector<double> node_loads, particle_loads;  ///< N; of nodes only while they act
-
-  POLYNYA_STATE_WITHOUT((node_loads, particle_loads), run, surface, dt, window, frames, node_loads, particle_loads)
-};
-
 /// What remains of a window after its positions are known, and of the next one, if it is free, all but the last step;
 /// returns the length of the step that comes now, 0 to finish, and the
 /// folder of the checkpoint that is wanted before it.
 double finish_window(Course& course, exchange::Participant& participant, std::string& checkpoint) {
-  auto& [run, surface, dt, window, frames, node_loads, particle_loads] = course;
-  internal_forces(run.ice, dt);
+  auto& [run, surface, dt, window, frames, node_loads, particle_loads, last_good] = course;
+  last_good.internal_forces(run.ice, dt, frames);
   Message loads;
   {
     const auto lap = run.ice.watch.lap("messages");
@@ -133,7 +136,7 @@ double finish_window(Course& course, exchange::Participant& participant, std::st
   convert(run, surface);
   if (loads.header.at("finish").get<bool>()) return 0;
   checkpoint = loads.header.value("checkpoint", std::string{});
-  return free ? advance_freely(run, surface, next, length - next) : next;
+  return free ? advance_freely(course, next, length - next) : next;
 }
 
 /// From `ready` to the first half step.
@@ -175,6 +178,7 @@ void run_coupled(IceRun& run, exchange::Participant& participant) {
     go_on(course, participant);
   else
     begin(course, participant);
+  course.last_good.keep(ice);
   while (course.dt > 0) {
     advance_positions(ice, course.dt);
     {

@@ -18,6 +18,8 @@ class FrameSeries {
   void write(int number, const UnstructuredFields& fields, double time);
 
   std::size_t count() const { return entries_.size(); }
+  /// s, of the frame written last; -1 if there is none.
+  double last_time() const { return entries_.empty() ? -1 : entries_.back().time; }
 
   /// The index. The first frame after loading removes those that came later: until then all is as it was, in case
   /// another program refuses the checkpoint.
