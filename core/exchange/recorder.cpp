@@ -59,16 +59,16 @@ struct Conversation {
   RecordSegment segment;
   int files = 0;
 
-  void write(const std::string& folder) {
+  void write(const std::string& folder, Route route) {
     if (segment.header.empty()) return;
-    write_segment(segment_path(folder, label.participant, files++), segment, label, compression);
-    segment = {};
+    write_segment(segment_path(folder, label.participant, files++), segment, label, compression, route);
+    segment.clear();
   }
 
-  void append(const std::string& folder, RecordedMessage&& recorded) {
+  void append(const std::string& folder, RecordedMessage&& recorded, Route route) {
     if (region) recorded.message = region->restrict(recorded.message);
-    if (!segment.fits(recorded.message)) write(folder);
-    segment.append(std::move(recorded), label.run);
+    if (!segment.fits(recorded.message)) write(folder, route);
+    segment.append(recorded, label.run);
   }
 };
 
@@ -92,6 +92,7 @@ struct Recorder::State {
   std::int64_t window = -1;                           // likewise, of the run
   std::map<std::string, Conversation> conversations;  // of the recorder's thread
   std::size_t taken_bytes = 0;                        // likewise
+  Route route = Route::past_cache;                    // likewise
   Statistics statistics;
 
   std::mutex mutex;
@@ -164,6 +165,8 @@ struct Recorder::State {
     Noted noted = std::move(queue.front());
     queue.pop_front();
     queued_bytes -= size_of(noted.recorded.message);
+    // A disk that does not keep up must not hold the run while the kernel has memory to lend.
+    route = closing || 2 * queued_bytes > options.queue_bytes ? Route::through_cache : Route::past_cache;
     room.notify_one();
     return noted;
   }
@@ -176,8 +179,8 @@ struct Recorder::State {
       if (options.region) conversation.region.emplace(*options.region);
     }
     taken_bytes += size_of(noted.recorded.message);
-    conversation.append(options.folder, std::move(noted.recorded));
-    if (conversation.segment.bytes >= file_bytes()) conversation.write(options.folder);
+    conversation.append(options.folder, std::move(noted.recorded), route);
+    if (conversation.segment.bytes >= file_bytes()) conversation.write(options.folder, route);
   }
 
   std::size_t file_bytes() const {
@@ -185,7 +188,7 @@ struct Recorder::State {
   }
 
   void write_all() {
-    for (auto& [name, conversation] : conversations) conversation.write(options.folder);
+    for (auto& [name, conversation] : conversations) conversation.write(options.folder, route);
     last_files = Clock::now();
   }
 
@@ -201,6 +204,7 @@ struct Recorder::State {
     if (error) return;
     try {
       while (!queue.empty()) take(pop());
+      route = Route::through_cache;  // for this the run waits
       write_all();
     } catch (...) {
       error = std::current_exception();
