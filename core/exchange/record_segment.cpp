@@ -21,27 +21,26 @@ bool continues(const ArraySeries& series, const Array& array) {
 
 /// Whether the array is the same as the last one of the series.
 bool repeats(const ArraySeries& series, const Array& array, std::int64_t rows) {
-  if (series.rows.empty() || rows != series.rows.back()[1] - series.rows.back()[0]) return false;
-  const std::size_t first = static_cast<std::size_t>(series.rows.back()[0]) * series.row_bytes();
+  if (series.rows.empty() || rows != series.rows.back().last - series.rows.back().first) return false;
+  const std::size_t first = static_cast<std::size_t>(series.rows.back().first) * series.row_bytes();
   return std::memcmp(series.values.data() + first, array.bytes.data(), array.bytes.size()) == 0;
 }
 
 /// Returns how many bytes it took.
 std::size_t add(ArraySeries& series, const Array& array, std::int64_t message) {
-  if (series.message.empty()) {
+  if (series.rows.empty()) {
     series.type = array.type;
     series.scalar = array.shape.empty();
     series.trailing = trailing_extents(array);
   }
-  series.message.push_back(message);
   const std::int64_t rows = array.shape.empty() ? 1 : array.shape.front();
   if (array.bytes.empty() || !repeats(series, array, rows)) {
-    series.rows.push_back({series.count, series.count + rows});
+    series.rows.push_back({message, series.count, series.count + rows});
     series.count += rows;
     series.values.append({array.bytes.data(), array.bytes.size()});
     return array.bytes.size();
   }
-  series.rows.push_back(series.rows.back());
+  series.rows.push_back({message, series.rows.back().first, series.rows.back().last});
   return 0;
 }
 
@@ -51,9 +50,9 @@ struct Outgoing {
   std::size_t taken = 0;
 
   void take(std::int64_t message, Array& array) {
-    if (taken >= series->message.size() || series->message[taken] != message || !continues(*series, array))
+    if (taken >= series->rows.size() || series->rows[taken].message != message || !continues(*series, array))
       throw ProtocolError("the record's array '" + array.name + "' does not follow the headers of its messages");
-    const auto [first, last] = series->rows[taken++];
+    const auto [number, first, last] = series->rows[taken++];
     const std::size_t size = series->row_bytes(), begin = static_cast<std::size_t>(first) * size;
     array.bytes = Bytes({series->values.data() + begin, static_cast<std::size_t>(last - first) * size}, series);
     if (array.bytes.size() != byte_count(array))
@@ -70,7 +69,7 @@ std::size_t ArraySeries::row_bytes() const {
 bool RecordSegment::fits(const Message& message) const {
   for (const Array& array : message.arrays) {
     const auto found = series.find({message.kind(), array.name});
-    if (found != series.end() && !found->second.message.empty() && !continues(found->second, array)) return false;
+    if (found != series.end() && !found->second.rows.empty() && !continues(found->second, array)) return false;
   }
   return true;
 }
@@ -91,7 +90,7 @@ void RecordSegment::clear() {
   header.clear(), sender.clear(), window.clear(), time.clear();
   bytes = 0;
   for (auto& [key, all] : series) {
-    all.message.clear(), all.rows.clear(), all.values.clear();
+    all.rows.clear(), all.values.clear();
     all.count = 0;
   }
 }

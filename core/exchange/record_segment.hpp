@@ -34,15 +34,19 @@ struct RecordLabel {
   std::optional<std::array<double, 6>> region;  ///< m, lowest x, y, z, then highest: only this box was stored
 };
 
+/// A message of the segment, the first row that it has in a series, and one behind its last.
+struct RowsOfMessage {
+  std::int64_t message = 0, first = 0, last = 0;
+};
+
 /// All arrays of one name in one kind of message, one behind the other along their first extent. One that is the same
 /// as the one before it shares its rows.
 struct ArraySeries {
   std::string type;
-  std::vector<std::int64_t> trailing;             ///< extents after the first
-  bool scalar = false;                            ///< shape [] each
-  std::vector<std::int64_t> message;              ///< which messages of the segment carry it
-  std::vector<std::array<std::int64_t, 2>> rows;  ///< the first of each of them, and one behind the last
-  std::int64_t count = 0;                         ///< of all rows
+  std::vector<std::int64_t> trailing;  ///< extents after the first
+  bool scalar = false;                 ///< shape [] each
+  std::vector<RowsOfMessage> rows;     ///< one for each message that carries it
+  std::int64_t count = 0;              ///< of all rows
   GrowingBytes values;
 
   std::size_t row_bytes() const;

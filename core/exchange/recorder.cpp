@@ -1,10 +1,12 @@
 #include "core/exchange/recorder.hpp"
 
+#include <pthread.h>
 #include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -74,6 +76,7 @@ struct Conversation {
 
 /// On Linux a thread has a niceness of its own: the solvers go first, the recorder takes what they leave.
 void step_back() {
+  pthread_setname_np(pthread_self(), "recorder");
   const auto thread = static_cast<id_t>(gettid());
   setpriority(PRIO_PROCESS, thread, getpriority(PRIO_PROCESS, thread) + 10);
 }
@@ -91,15 +94,16 @@ struct Recorder::State {
   std::map<std::string, Progress> progress;           // of the run's thread
   std::int64_t window = -1;                           // likewise, of the run
   std::map<std::string, Conversation> conversations;  // of the recorder's thread
+  std::deque<Noted> batch;                            // likewise, what it works at
   std::size_t taken_bytes = 0;                        // likewise
   Route route = Route::past_cache;                    // likewise
   Statistics statistics;
 
-  std::mutex mutex;
+  std::mutex mutex;  // held for no longer than it takes to swap two queues: its holder has stepped back
   std::condition_variable arrived, room;
   std::deque<Noted> queue;
-  std::size_t queued_bytes = 0;
-  bool closing = false;
+  std::atomic<std::size_t> queued_bytes = 0;  // in both queues
+  std::atomic<bool> closing = false;
   std::exception_ptr error;
   Clock::time_point begun = Clock::now(), last_files = begun;
   std::thread thread;
@@ -138,19 +142,14 @@ struct Recorder::State {
   void work() {
     step_back();
     try {
-      std::unique_lock lock(mutex);
       while (!closing) {
-        arrived.wait_until(lock, due(), [&] { return full_batch() || closing; });
-        while (!queue.empty() && !closing) {
-          Noted noted = pop();
-          lock.unlock();
-          take(std::move(noted));
-          lock.lock();
+        {
+          std::unique_lock lock(mutex);
+          arrived.wait_until(lock, due(), [&] { return full_batch() || closing; });
+          batch.swap(queue);
         }
-        if (closing || Clock::now() < due()) continue;
-        lock.unlock();
-        write_all();
-        lock.lock();
+        while (!batch.empty() && !closing) take(pop());
+        if (!closing && Clock::now() >= due()) write_all();
       }
     } catch (...) {
       const std::scoped_lock lock(mutex);
@@ -160,14 +159,17 @@ struct Recorder::State {
     statistics.busy_seconds = processor_seconds();
   }
 
-  /// The oldest message; the mutex is held.
+  /// The oldest message of the batch.
   Noted pop() {
-    Noted noted = std::move(queue.front());
-    queue.pop_front();
-    queued_bytes -= size_of(noted.recorded.message);
+    Noted noted = std::move(batch.front());
+    batch.pop_front();
+    const std::size_t size = size_of(noted.recorded.message), before = queued_bytes.fetch_sub(size);
     // A disk that does not keep up must not hold the run while the kernel has memory to lend.
-    route = closing || 2 * queued_bytes > options.queue_bytes ? Route::through_cache : Route::past_cache;
-    room.notify_one();
+    route = closing || 2 * before > options.queue_bytes ? Route::through_cache : Route::past_cache;
+    if (before >= options.queue_bytes) {
+      const std::scoped_lock lock(mutex);
+      room.notify_one();
+    }
     return noted;
   }
 
@@ -203,8 +205,9 @@ struct Recorder::State {
     thread.join();
     if (error) return;
     try {
-      while (!queue.empty()) take(pop());
-      route = Route::through_cache;  // for this the run waits
+      while (!batch.empty()) take(pop());
+      for (batch.swap(queue); !batch.empty();) take(pop());
+      route = Route::through_cache;
       write_all();
     } catch (...) {
       error = std::current_exception();
