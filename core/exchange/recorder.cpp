@@ -27,7 +27,7 @@ using Seconds = std::chrono::duration<double>;
 constexpr std::size_t batch_bytes = 2 << 20;
 constexpr double share_at_risk = 0.01;  ///< of a long run, that may lie in files not closed yet
 /// Files grow with the record: what is in memory still when the run ends keeps it waiting, and many files are a burden.
-constexpr std::size_t first_file_bytes = 8 << 20, files_of_a_record = 32;
+constexpr std::size_t first_file_bytes = 16 << 20, files_of_a_record = 32;
 
 struct Noted {
   std::string participant;
