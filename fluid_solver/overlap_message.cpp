@@ -83,12 +83,14 @@ void read_walls(const exchange::Message& message, Overlap& overlap) {
   const auto walls = message.view<std::int64_t>("wall");
   const auto area = values(message, "wall_area", 6 * walls.size());
   const auto velocity = values(message, "wall_velocity", 6 * walls.size());
-  const auto size = values(message, "wall_size", walls.size());
   overlap.walled.assign(walls.begin(), walls.end());
   overlap.wall_area.assign(6 * overlap.cell.size(), 0.0);
   overlap.wall_velocity.assign(6 * overlap.cell.size(), 0.0);
-  overlap.wall_size.assign(overlap.cell.size(), 0.0);
-  std::span<const double> sweep;
+  std::span<const double> size, sweep;
+  if (message.has("wall_size")) {
+    size = values(message, "wall_size", walls.size());
+    overlap.wall_size.assign(overlap.cell.size(), 0.0);
+  }
   if (message.has("wall_sweep")) {
     sweep = values(message, "wall_sweep", 2 * walls.size());
     overlap.wall_sweep.assign(2 * overlap.cell.size(), 0.0);
@@ -101,7 +103,7 @@ void read_walls(const exchange::Message& message, Overlap& overlap) {
     const std::ptrdiff_t m = at++ - overlap.cell.begin();
     std::copy_n(&area[6 * w], 6, &overlap.wall_area[6 * m]);
     std::copy_n(&velocity[6 * w], 6, &overlap.wall_velocity[6 * m]);
-    overlap.wall_size[static_cast<std::size_t>(m)] = size[w];
+    if (!size.empty()) overlap.wall_size[static_cast<std::size_t>(m)] = size[w];
     if (!sweep.empty()) std::copy_n(&sweep[2 * w], 2, &overlap.wall_sweep[2 * m]);
   }
 }

@@ -21,9 +21,9 @@ using hdf5::check;
 using hdf5::Handle;
 
 constexpr const char* format_name = "polynya-record";
-constexpr std::int64_t format_version = 2;
-constexpr std::size_t batch_bytes = 1 << 20;
-constexpr std::size_t large_array = 1 << 15, chunk_bytes = 1 << 18;
+constexpr std::int64_t format_version = 3;
+constexpr std::size_t chunk_bytes = 1 << 18;
+constexpr std::size_t numbers_of_rows = sizeof(RowsOfMessage) / sizeof(std::int64_t);
 
 hid_t type_of(const std::string& type) {
   if (type == "f8") return H5T_IEEE_F64LE;
@@ -68,9 +68,12 @@ Handle make_rows(hid_t parent, const char* name, hid_t type, const std::vector<h
   return {H5Dcreate2(parent, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, name};
 }
 
+/// Numbers, or rows of numbers.
 template <class T>
-void write_column(hid_t parent, const char* name, hid_t type, const std::vector<T>& values) {
-  const Handle set = make_rows(parent, name, type, {values.size()});
+void write_column(hid_t parent, const char* name, hid_t type, const std::vector<T>& values,
+                  std::vector<hsize_t> trailing = {}) {
+  trailing.insert(trailing.begin(), values.size());
+  const Handle set = make_rows(parent, name, type, trailing);
   if (!values.empty()) check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
 }
 
@@ -97,69 +100,36 @@ void write_label(hid_t file, const RecordLabel& label) {
   if (label.region) hdf5::write_numbers<double>(file, "region", *label.region);
 }
 
-/// Reads or writes rows of a data set; `transfer` gets the spaces in memory and in the file.
-template <class Transfer>
-void transfer_rows(hid_t set, const std::string& name, std::vector<hsize_t> shape, hsize_t first, hsize_t rows,
-                   Transfer&& transfer) {
-  const Handle all(H5Dget_space(set), H5Sclose, name);
-  std::vector<hsize_t> start(shape.size(), 0);
-  start[0] = first, shape[0] = rows;
-  if (std::find(shape.begin(), shape.end(), 0) != shape.end()) return;
-  check(H5Sselect_hyperslab(all, H5S_SELECT_SET, start.data(), nullptr, shape.data(), nullptr), name);
-  const Handle part(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, name);
-  check(transfer(part, all), name);
-}
-
-/// HDF5 compresses what goes through it. Small arrays are gathered: it takes longer over a call than over the bytes.
-void write_values(hid_t set, const std::string& name, const std::vector<hsize_t>& shape, const ArraySeries& series) {
-  std::vector<std::byte> batch;
-  std::size_t begun = 0;
-  const auto write = [&](std::size_t end, const std::byte* values) {
-    const auto first = static_cast<hsize_t>(series.first[begun]), last = static_cast<hsize_t>(series.first[end]);
-    transfer_rows(set, name, shape, first, last - first, [&](hid_t part, hid_t all) {
-      return H5Dwrite(set, type_of(series.type), part, all, H5P_DEFAULT, values);
-    });
-    begun = end;
-    batch.clear();
-  };
-  for (std::size_t i = 0; i < series.values.size(); ++i) {
-    const Bytes& values = series.values[i];
-    const bool large = values.size() >= large_array;
-    if (begun < i && (large || batch.size() + values.size() > batch_bytes)) write(i, batch.data());
-    if (large)
-      write(i + 1, values.data());
-    else
-      batch.insert(batch.end(), values.begin(), values.end());
-  }
-  if (begun < series.values.size()) write(series.values.size(), batch.data());
-}
-
 /// Makes the data sets of a series. Values that are not compressed are left to be written to their place, which is
-/// added to `placed`: HDF5 takes longer over its calls than the kernel over the bytes.
+/// added to `placed`: HDF5 goes through the kernel's cache.
 void write_series(hid_t parent, const std::string& name, const ArraySeries& series, Compression compression,
                   std::vector<PlacedValues>& placed) {
   const Handle home = group(parent, link_name(name));
-  std::vector<hsize_t> shape{static_cast<hsize_t>(series.first.back())};
+  std::vector<hsize_t> shape{static_cast<hsize_t>(series.count)};
   for (const std::int64_t extent : series.trailing) shape.push_back(static_cast<hsize_t>(extent));
   hdf5::write_text(home, "type", series.type);
   const std::int64_t scalar = series.scalar ? 1 : 0;
   hdf5::write_numbers<std::int64_t>(home, "scalar", {&scalar, 1});
-  const Handle set = make_rows(home, "values", type_of(series.type), shape, compression);
+  const hid_t type = type_of(series.type);
+  const Handle set = make_rows(home, "values", type, shape, compression);
+  const std::span<const std::byte> values(series.values.data(), series.values.size());
   if (compression != Compression::none) {
-    write_values(set, name, shape, series);
-  } else if (std::any_of(series.values.begin(), series.values.end(), [](const Bytes& b) { return !b.empty(); })) {
+    if (!values.empty()) check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
+  } else if (!values.empty()) {
     const haddr_t offset = H5Dget_offset(set);
     check(offset == HADDR_UNDEF ? -1 : 0, name);
-    placed.push_back({offset, &series.values});
+    placed.push_back({offset, values});
   }
-  write_column(home, "message", H5T_STD_I64LE, series.message);
-  write_column(home, "first", H5T_STD_I64LE, series.first);
+  write_column(home, "rows", H5T_STD_I64LE, series.rows, {numbers_of_rows});
 }
 
 /// All but the values that are left to be placed, which it returns.
 std::vector<PlacedValues> write_structure(const std::string& path, const RecordSegment& segment,
                                           const RecordLabel& label, Compression compression) {
-  const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
+  check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), path);  // small groups: half the work
+  check(H5Pset_alignment(access, least_past_cache, disk_block), path);
+  const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, path);
   write_label(file, label);
   {
     const Handle messages = group(file, "messages");
@@ -173,6 +143,7 @@ std::vector<PlacedValues> write_structure(const std::string& path, const RecordS
   std::optional<Handle> home;
   std::vector<PlacedValues> placed;
   for (const auto& [key, series] : segment.series) {
+    if (series.rows.empty()) continue;
     if (!home || kind != key.first) home.reset(), home.emplace(group(arrays, link_name(kind = key.first)));
     write_series(*home, key.second, series, compression, placed);
   }
@@ -180,11 +151,15 @@ std::vector<PlacedValues> write_structure(const std::string& path, const RecordS
   return placed;
 }
 
+/// A column of numbers, or one of rows of numbers if that is what T is.
 template <class T>
 std::vector<T> read_column(hid_t parent, const char* name, hid_t type) {
   const Handle set(H5Dopen2(parent, name, H5P_DEFAULT), H5Dclose, name);
   const Handle space(H5Dget_space(set), H5Sclose, name);
-  std::vector<T> values(static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space), 0)));
+  const auto count = static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space), 0));
+  const std::size_t numbers = sizeof(T) / H5Tget_size(type);
+  check(count % numbers == 0 ? 0 : -1, name);
+  std::vector<T> values(count / numbers);
   if (!values.empty()) check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
   return values;
 }
@@ -206,26 +181,20 @@ ArraySeries read_series(hid_t kind, const std::string& name) {
   ArraySeries series;
   series.type = hdf5::read_text(home, "type");
   series.scalar = hdf5::read_numbers<std::int64_t>(home, "scalar").at(0) != 0;
-  series.message = read_column<std::int64_t>(home, "message", H5T_STD_I64LE);
-  series.first = read_column<std::int64_t>(home, "first", H5T_STD_I64LE);
+  series.rows = read_column<RowsOfMessage>(home, "rows", H5T_STD_I64LE);
   const hid_t type = type_of(series.type);
   const Handle set(H5Dopen2(home, "values", H5P_DEFAULT), H5Dclose, name);
   const Handle space(H5Dget_space(set), H5Sclose, name);
   std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space), 1)));
   check(H5Sget_simple_extent_dims(space, shape.data(), nullptr), name);
+  series.count = static_cast<std::int64_t>(shape[0]);
   series.trailing.assign(shape.begin() + 1, shape.end());
-  if (series.first.size() != series.message.size() + 1 || series.first.front() != 0 ||
-      !std::is_sorted(series.first.begin(), series.first.end()) ||
-      series.first.back() != static_cast<std::int64_t>(shape[0]))
-    throw RecordError("the rows of the array '" + name + "' do not follow each other");
-  const std::size_t row = byte_count({name, series.type, series.trailing, {}});
-  for (std::size_t i = 0; i < series.message.size(); ++i) {
-    const auto first = static_cast<hsize_t>(series.first[i]), rows = static_cast<hsize_t>(series.first[i + 1]) - first;
-    std::vector<std::byte> values(row * rows);
-    transfer_rows(set, name, shape, first, rows,
-                  [&](hid_t part, hid_t all) { return H5Dread(set, type, part, all, H5P_DEFAULT, values.data()); });
-    series.values.emplace_back(std::move(values));
-  }
+  const bool inside = std::all_of(series.rows.begin(), series.rows.end(), [&](const auto& rows) {
+    return rows.first >= 0 && rows.first <= rows.last && rows.last <= series.count;
+  });
+  if (!inside) throw RecordError("the rows of the array '" + name + "' are not where its messages have them");
+  const std::size_t size = shape[0] * series.row_bytes();
+  if (size > 0) check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, series.values.extend(size)), name);
   return series;
 }
 
@@ -279,7 +248,7 @@ std::string segment_path(const std::string& folder, const std::string& participa
 }
 
 void write_segment(const std::string& path, const RecordSegment& segment, const RecordLabel& label,
-                   Compression compression) {
+                   Compression compression, Route route) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported once, by the exception
   results::create_folder_of(path);
   std::vector<PlacedValues> placed;
@@ -288,7 +257,7 @@ void write_segment(const std::string& path, const RecordSegment& segment, const 
   } catch (const hdf5::Refused& error) {
     throw results::ResultsError("cannot write " + path + ": HDF5 could not store " + error.what() + " (disk full?)");
   }
-  write_placed_values(results::aside(path), placed);
+  write_placed_values(results::aside(path), placed, route);
   // No fsync: the record survives the process, whose frames survive the machine; waiting for the disk would cost the
   // run.
   if (std::rename(results::aside(path).c_str(), path.c_str()) != 0) results::throw_file_error(path, errno);

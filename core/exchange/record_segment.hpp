@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/exchange/growing_bytes.hpp"
 #include "core/exchange/message.hpp"
 #include "core/exchange/record_selection.hpp"
 
@@ -33,14 +34,22 @@ struct RecordLabel {
   std::optional<std::array<double, 6>> region;  ///< m, lowest x, y, z, then highest: only this box was stored
 };
 
-/// All arrays of one name in one kind of message, one behind the other along their first extent.
+/// A message of the segment, the first row that it has in a series, and one behind its last.
+struct RowsOfMessage {
+  std::int64_t message = 0, first = 0, last = 0;
+};
+
+/// All arrays of one name in one kind of message, one behind the other along their first extent. One that is the same
+/// as the one before it shares its rows.
 struct ArraySeries {
   std::string type;
   std::vector<std::int64_t> trailing;  ///< extents after the first
   bool scalar = false;                 ///< shape [] each
-  std::vector<std::int64_t> message;   ///< which messages of the segment carry it
-  std::vector<std::int64_t> first{0};  ///< their first rows, and one behind the last
-  std::vector<Bytes> values;           ///< one per message
+  std::vector<RowsOfMessage> rows;     ///< one for each message that carries it
+  std::int64_t count = 0;              ///< of all rows
+  GrowingBytes values;
+
+  std::size_t row_bytes() const;
 };
 
 /// A part of a conversation as it lies in one file. Header frames are kept as they travel (docs/protocol.md), with the
@@ -55,7 +64,10 @@ struct RecordSegment {
 
   /// False if an array changes its type or an extent other than the first: such a message needs a new segment.
   bool fits(const Message& message) const;
-  void append(RecordedMessage&& recorded, const std::string& run);
+  /// Copies the message's arrays: their memory is wanted again at once by the next message.
+  void append(const RecordedMessage& recorded, const std::string& run);
+  /// Forgets the messages and keeps the memory of their arrays for others.
+  void clear();
   /// The messages again, bit for bit; the segment is empty after it. Throws ProtocolError when header and arrays
   /// disagree.
   std::vector<RecordedMessage> take_messages();

@@ -1,66 +1,65 @@
 #include "core/exchange/record_values.hpp"
 
 #include <fcntl.h>
-#include <sys/uio.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <optional>
 
 #include "core/results/durable_file.hpp"
 
 namespace polynya::exchange {
 namespace {
 
-constexpr std::size_t most_parts = 1024;  // of one call: Linux takes no more
-
 /// A descriptor that closes.
 struct File {
   int descriptor;
-  explicit File(const std::string& path) : descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
-    if (descriptor < 0) results::throw_file_error(path, errno);
+  explicit File(const std::string& path, int flags = 0)
+      : descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags)) {
+    if (descriptor < 0 && flags == 0) results::throw_file_error(path, errno);
   }
-  ~File() { ::close(descriptor); }
+  ~File() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
   File(const File&) = delete;
   File& operator=(const File&) = delete;
 };
 
-/// Takes what was written off the front of the parts.
-void take_off(std::vector<iovec>& parts, std::size_t written) {
-  std::size_t done = 0;
-  while (done < parts.size() && written >= parts[done].iov_len) written -= parts[done++].iov_len;
-  parts.erase(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(done));
-  if (written == 0) return;
-  parts.front().iov_base = static_cast<std::byte*>(parts.front().iov_base) + written;
-  parts.front().iov_len -= written;
+/// Writes until all is written, or an error that is returned; `placed` becomes what is left.
+int write(const File& file, PlacedValues& placed) {
+  while (!placed.values.empty()) {
+    const ssize_t written =
+        ::pwrite(file.descriptor, placed.values.data(), placed.values.size(), static_cast<off_t>(placed.offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return written < 0 ? errno : ENOSPC;
+    placed.offset += static_cast<std::uint64_t>(written);
+    placed.values = placed.values.subspan(static_cast<std::size_t>(written));
+  }
+  return 0;
 }
 
-/// Writes the parts one behind the other; returns where the last one ends.
-std::uint64_t write_parts(const File& file, const std::string& path, std::uint64_t offset, std::vector<iovec>& parts) {
-  while (!parts.empty()) {
-    const ssize_t written =
-        ::pwritev(file.descriptor, parts.data(), static_cast<int>(parts.size()), static_cast<off_t>(offset));
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) results::throw_file_error(path, errno);
-    offset += static_cast<std::uint64_t>(written);
-    take_off(parts, static_cast<std::size_t>(written));
-  }
-  return offset;
+/// Writes the whole blocks past the cache; `placed` becomes what is left.
+void write_blocks(const File& file, const std::string& path, PlacedValues& placed) {
+  if (file.descriptor < 0 || placed.values.size() < least_past_cache || placed.offset % disk_block != 0) return;
+  const std::size_t whole = placed.values.size() / disk_block * disk_block;
+  PlacedValues blocks{placed.offset, placed.values.first(whole)};
+  const int error = write(file, blocks);
+  // EINVAL: the file system wants other blocks. It gets the rest through its cache.
+  if (error != 0 && error != EINVAL) results::throw_file_error(path, error);
+  const std::size_t done = whole - blocks.values.size();
+  placed = {placed.offset + done, placed.values.subspan(done)};
 }
 
 }  // namespace
 
-void write_placed_values(const std::string& path, const std::vector<PlacedValues>& series) {
+void write_placed_values(const std::string& path, const std::vector<PlacedValues>& series, Route route) {
   if (series.empty()) return;
-  const File file(path);
-  std::vector<iovec> parts;
-  for (const PlacedValues& placed : series) {
-    std::uint64_t offset = placed.offset;
-    for (const Bytes& bytes : *placed.values) {
-      if (bytes.empty()) continue;
-      parts.push_back({const_cast<std::byte*>(bytes.data()), bytes.size()});
-      if (parts.size() == most_parts) offset = write_parts(file, path, offset, parts);
-    }
-    write_parts(file, path, offset, parts);
+  const File cached(path);
+  std::optional<File> direct;
+  if (route == Route::past_cache) direct.emplace(path, O_DIRECT);
+  for (PlacedValues placed : series) {
+    if (direct) write_blocks(*direct, path, placed);
+    if (const int error = write(cached, placed)) results::throw_file_error(path, error);
   }
 }
 

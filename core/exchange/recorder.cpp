@@ -1,10 +1,12 @@
 #include "core/exchange/recorder.hpp"
 
+#include <pthread.h>
 #include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -25,7 +27,7 @@ using Seconds = std::chrono::duration<double>;
 constexpr std::size_t batch_bytes = 2 << 20;
 constexpr double share_at_risk = 0.01;  ///< of a long run, that may lie in files not closed yet
 /// Files grow with the record: what is in memory still when the run ends keeps it waiting, and many files are a burden.
-constexpr std::size_t first_file_bytes = 8 << 20, files_of_a_record = 32;
+constexpr std::size_t first_file_bytes = 16 << 20, files_of_a_record = 32;
 
 struct Noted {
   std::string participant;
@@ -59,21 +61,22 @@ struct Conversation {
   RecordSegment segment;
   int files = 0;
 
-  void write(const std::string& folder) {
+  void write(const std::string& folder, Route route) {
     if (segment.header.empty()) return;
-    write_segment(segment_path(folder, label.participant, files++), segment, label, compression);
-    segment = {};
+    write_segment(segment_path(folder, label.participant, files++), segment, label, compression, route);
+    segment.clear();
   }
 
-  void append(const std::string& folder, RecordedMessage&& recorded) {
+  void append(const std::string& folder, RecordedMessage&& recorded, Route route) {
     if (region) recorded.message = region->restrict(recorded.message);
-    if (!segment.fits(recorded.message)) write(folder);
-    segment.append(std::move(recorded), label.run);
+    if (!segment.fits(recorded.message)) write(folder, route);
+    segment.append(recorded, label.run);
   }
 };
 
 /// On Linux a thread has a niceness of its own: the solvers go first, the recorder takes what they leave.
 void step_back() {
+  pthread_setname_np(pthread_self(), "recorder");
   const auto thread = static_cast<id_t>(gettid());
   setpriority(PRIO_PROCESS, thread, getpriority(PRIO_PROCESS, thread) + 10);
 }
@@ -91,14 +94,16 @@ struct Recorder::State {
   std::map<std::string, Progress> progress;           // of the run's thread
   std::int64_t window = -1;                           // likewise, of the run
   std::map<std::string, Conversation> conversations;  // of the recorder's thread
+  std::deque<Noted> batch;                            // likewise, what it works at
   std::size_t taken_bytes = 0;                        // likewise
+  Route route = Route::past_cache;                    // likewise
   Statistics statistics;
 
-  std::mutex mutex;
+  std::mutex mutex;  // held for no longer than it takes to swap two queues: its holder has stepped back
   std::condition_variable arrived, room;
   std::deque<Noted> queue;
-  std::size_t queued_bytes = 0;
-  bool closing = false;
+  std::atomic<std::size_t> queued_bytes = 0;  // in both queues
+  std::atomic<bool> closing = false;
   std::exception_ptr error;
   Clock::time_point begun = Clock::now(), last_files = begun;
   std::thread thread;
@@ -137,19 +142,14 @@ struct Recorder::State {
   void work() {
     step_back();
     try {
-      std::unique_lock lock(mutex);
       while (!closing) {
-        arrived.wait_until(lock, due(), [&] { return full_batch() || closing; });
-        while (!queue.empty() && !closing) {
-          Noted noted = pop();
-          lock.unlock();
-          take(std::move(noted));
-          lock.lock();
+        {
+          std::unique_lock lock(mutex);
+          arrived.wait_until(lock, due(), [&] { return full_batch() || closing; });
+          batch.swap(queue);
         }
-        if (closing || Clock::now() < due()) continue;
-        lock.unlock();
-        write_all();
-        lock.lock();
+        while (!batch.empty() && !closing) take(pop());
+        if (!closing && Clock::now() >= due()) write_all();
       }
     } catch (...) {
       const std::scoped_lock lock(mutex);
@@ -159,12 +159,17 @@ struct Recorder::State {
     statistics.busy_seconds = processor_seconds();
   }
 
-  /// The oldest message; the mutex is held.
+  /// The oldest message of the batch.
   Noted pop() {
-    Noted noted = std::move(queue.front());
-    queue.pop_front();
-    queued_bytes -= size_of(noted.recorded.message);
-    room.notify_one();
+    Noted noted = std::move(batch.front());
+    batch.pop_front();
+    const std::size_t size = size_of(noted.recorded.message), before = queued_bytes.fetch_sub(size);
+    // A disk that does not keep up must not hold the run while the kernel has memory to lend.
+    route = closing || 2 * before > options.queue_bytes ? Route::through_cache : Route::past_cache;
+    if (before >= options.queue_bytes) {
+      const std::scoped_lock lock(mutex);
+      room.notify_one();
+    }
     return noted;
   }
 
@@ -176,8 +181,8 @@ struct Recorder::State {
       if (options.region) conversation.region.emplace(*options.region);
     }
     taken_bytes += size_of(noted.recorded.message);
-    conversation.append(options.folder, std::move(noted.recorded));
-    if (conversation.segment.bytes >= file_bytes()) conversation.write(options.folder);
+    conversation.append(options.folder, std::move(noted.recorded), route);
+    if (conversation.segment.bytes >= file_bytes()) conversation.write(options.folder, route);
   }
 
   std::size_t file_bytes() const {
@@ -185,7 +190,7 @@ struct Recorder::State {
   }
 
   void write_all() {
-    for (auto& [name, conversation] : conversations) conversation.write(options.folder);
+    for (auto& [name, conversation] : conversations) conversation.write(options.folder, route);
     last_files = Clock::now();
   }
 
@@ -200,7 +205,9 @@ struct Recorder::State {
     thread.join();
     if (error) return;
     try {
-      while (!queue.empty()) take(pop());
+      while (!batch.empty()) take(pop());
+      for (batch.swap(queue); !batch.empty();) take(pop());
+      route = Route::through_cache;
       write_all();
     } catch (...) {
       error = std::current_exception();

@@ -106,8 +106,8 @@ class Replay(unittest.TestCase):
     def test_one_changed_bit_of_a_load_is_found_one_window_later(self):
         def loads_of(file):
             """Window and first row of each `loads` with forces, and the forces."""
-            load = file.get("arrays/loads/load.forces", {"message": [], "first": [0], "values": numpy.zeros((0, 3))})
-            for message, first, last in zip(load["message"], load["first"][:-1], load["first"][1:]):
+            load = file.get("arrays/loads/load.forces", {"rows": [], "values": numpy.zeros((0, 3))})
+            for message, first, last in load["rows"]:
                 yield int(file["messages/window"][message]), first, load["values"][first:last]
 
         peaks = {}
@@ -164,9 +164,9 @@ class Replay(unittest.TestCase):
         force, start = numpy.zeros((len(ledger["time"]), 3)), numpy.zeros(3)
         for path in files_of("ice"):
             with h5py.File(path) as file:
-                window, load = file["messages/window"][:], file.get("arrays/loads/load.forces", {"message": []})
-                for i, message in enumerate(load["message"]):
-                    force[window[message]] = load["values"][slice(*load["first"][i:i + 2])].sum(axis=0)
+                window, load = file["messages/window"][:], file.get("arrays/loads/load.forces", {"rows": []})
+                for message, first, last in load["rows"]:
+                    force[window[message]] = load["values"][first:last].sum(axis=0)
                 if "arrays/begin/load.forces" in file:
                     start += file["arrays/begin/load.forces/values"][:].sum(axis=0)  # for half of the first step
         for axis, name in enumerate("xyz"):

@@ -77,6 +77,14 @@ TEST(FluidOverlapMessage, WallsThatDoNotSayWhatTheySweepMoveAsOnePiece) {
   EXPECT_THROW(read_overlap(longer, grid()), exchange::ProtocolError);
 }
 
+TEST(FluidOverlapMessage, WallsThatDoNotSayTheirSizeHaveTheLengthsOfTheirAreas) {
+  exchange::Message message = overlap();
+  std::erase_if(message.arrays, [](const exchange::Array& array) { return array.name == "wall_size"; });
+  EXPECT_TRUE(read_overlap(message, grid()).wall_size.empty());
+  message.add<double>("wall_size", {2}, Numbers{3.0, 3.0});
+  EXPECT_THROW(read_overlap(message, grid()), exchange::ProtocolError);
+}
+
 TEST(FluidOverlapMessage, RunsOfFacesAreClosed) {
   const Overlap read = read_overlap(overlap(), grid());
   for (int axis = 0; axis < 3; ++axis) {
