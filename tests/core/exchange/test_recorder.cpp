@@ -1,4 +1,7 @@
+#include <sys/resource.h>
+
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <limits>
 #include <thread>
@@ -260,6 +263,54 @@ TEST(Recorder, AFolderThatCannotBeWrittenIsNamed) {
   Recorder recorder(options);
   recorder.note("ice", Sender::participant, surface(0, 0));
   EXPECT_NE(message_of<results::ResultsError>([&] { recorder.close(); }).find(options.folder), std::string::npos);
+}
+
+TEST(Recorder, AnArrayThatRepeatsIsStoredOnceAndComesBackEachTime) {
+  const SocketFolder folder;
+  const Recorder::Options options = options_in(folder);
+  const std::vector<double> steady(100000, 0.1);
+  std::vector<Message> written;
+  for (int window = 0; window < 9; ++window) {
+    written.push_back(loads(window));
+    std::vector<double> values = steady;
+    values.back() += window / 3;  // changes twice
+    written.back().add<double>("load.forces", {100000}, values);
+  }
+  Recorder recorder(options);
+  for (const Message& message : written) recorder.note("ice", Sender::coupler, message);
+  recorder.close();
+  const std::vector<RecordedMessage> read = read_all(options.folder, "ice");
+  ASSERT_EQ(read.size(), written.size());
+  for (std::size_t i = 0; i < read.size(); ++i) expect_equal(read[i].message, written[i]);
+  const auto bytes = std::filesystem::file_size(options.folder + "/ice-00000.h5");
+  EXPECT_GE(bytes, 3u * 800000);
+  EXPECT_LT(bytes, 3.2 * 800000);
+}
+
+TEST(Recorder, ADiskThatTakesNoMoreIsNamedAndWhatIsWholeStaysReadable) {
+  const SocketFolder folder;
+  Recorder::Options options = options_in(folder);
+  options.segment_bytes = 1 << 20;
+  options.queue_bytes = 1 << 20;
+  // Files may not grow beyond 2 MB: writing fails as on a full disk.
+  Process writer([&] {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{2 << 20, 2 << 20};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    Recorder recorder(options);
+    for (int window = 0; window < 3; ++window)
+      recorder.note("ice", Sender::participant, surface(window, window, 20000));  // 0.5 MB each
+    const std::string error = message_of<results::ResultsError>([&] {
+      for (int window = 3; window < 1000; ++window)
+        recorder.note("ice", Sender::participant, surface(window, window, 200000));  // 4.8 MB each
+    });
+    return error.find(options.folder) != std::string::npos ? 0 : 1;
+  });
+  EXPECT_EQ(writer.wait(), 0);
+  const std::vector<RecordedMessage> read = read_all(options.folder, "ice");
+  ASSERT_GE(read.size(), 2u);
+  for (std::size_t i = 0; i < read.size(); ++i)
+    expect_equal(read[i].message, surface(static_cast<int>(i), static_cast<double>(i), 20000));
 }
 
 TEST(Recorder, AMissingAndADamagedRecordAreNamed) {
