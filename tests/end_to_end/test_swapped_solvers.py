@@ -1,6 +1,7 @@
 """Other people's programs in the seats of our solvers: they run, and what goes wrong with them is one sentence."""
 
 import json
+import math
 import os
 import shutil
 import unittest
@@ -13,6 +14,7 @@ import numpy
 from runs import ROOT, polynya, scratch, series, summary_of
 
 RIGID = ROOT / "examples/rigid_vehicle.py"
+ACOUSTIC = ROOT / "tests/end_to_end/acoustic_fluid.py"
 SEEDED = ROOT / "tests/launcher/seeded_errors.py"
 MARK = "POLYNYA_TEST_MARK"
 COARSE = ["resolution.cell=5 mm", "resolution.vehicle_element=4 mm", "resolution.growth=1.3", "run.end=time"]
@@ -134,6 +136,24 @@ class Commands(unittest.TestCase):
     def test_for_participants_that_do_not_exist_are_wrong_input(self):
         self.refused(2, "vehicel.command=true", "'participants.vehicel'", "participants.structure", "participants.ice",
                      "participants.fluid")
+
+
+class FluidWithoutForecasts(unittest.TestCase):
+    """tests/end_to_end/acoustic_fluid.py in the fluid's seat: its loads are held from one span to the next."""
+
+    def test_slows_a_hull_by_its_impedance_times_what_the_hull_turns_to_it(self):
+        mass, speed, end = 0.005, 40.0, 20e-6
+        with scratch() as folder:
+            case = ["cases/vehicle_in_water", "run.end=time", f"run.end_time={end} s", "effects.deformable_vehicle=off"]
+            hull = ["vehicle.head=hemisphere", "vehicle.head_length=5 mm", "vehicle.nose_position=-20 mm"]
+            summary = summary_of(run(folder + "/run", case, *hull, f"participants.fluid.command=/usr/bin/python3 {ACOUSTIC}"))
+        # m dV/dt = -rho c S V; the fluid has integrated S of the quarter model over time.
+        theory = 1.48e6 * 4 * summary["accounts"]["fluid"]["exposure"] / mass
+        found = math.log(speed / summary["residual_speed"])
+        print(f"{summary['spans']} spans: slowed to {summary['residual_speed']:.2f} m/s, logarithm {found:.4f}, theory {theory:.4f}")
+        self.assertGreater(theory, 0.5)
+        # Loads come a span late: the first and the last of some ninety make the difference.
+        self.assertLess(abs(found / theory - 1), 0.01)
 
 
 if __name__ == "__main__":
