@@ -109,7 +109,7 @@ Balance balance(const Conversation& conversation, const Ledger& ledger, double a
     const Account& fluid = conversation.fluid->account;
     // What walls gave to fluid they carried along ("node_fix") is in the fluid's kinetic energy and missing in the
     // solids'.
-    sum.fluid = fluid.change({"kinetic", "internal", "gravity", "remap_loss", "hourglass", "put_to_rest"});
+    sum.fluid = fluid.change({"kinetic", "internal", "gravity", "remap_loss", "hourglass", "put_to_rest", "vapour"});
     sum.external -= fluid.change({"boundary_work", "boundary_energy"});
     // The fluid works on walls with absolute pressure, solids count from the atmosphere: their insides hold against it.
     sum.external -= atmospheric_pressure * fluid.change({"swept_volume_vehicle", "swept_volume_ice"});

@@ -41,18 +41,25 @@ void edge_forces(const double* u, const double* coefficient, Span cells, std::pt
   }
 }
 
-/// Energy that the hourglass viscosity has taken, kinetic energy of the new velocities, J, and what nodes that are held
-/// would have taken up, N s.
+/// Energy that the hourglass viscosity has taken, kinetic energy of the new velocities, J, what nodes that are held
+/// would have taken up, N s, and the nodes that hold next to nothing (thin_density).
 struct Accelerated {
   double dissipated = 0, kinetic = 0;
   std::array<double, 3> held{};
+  std::vector<std::ptrdiff_t> thin;
 
   void add(const Accelerated& other) {
     dissipated += other.dissipated;
     kinetic += other.kinetic;
     for (int d = 0; d < 3; ++d) held[d] += other.held[d];
+    thin.insert(thin.end(), other.thin.begin(), other.thin.end());
   }
 };
+
+/// Mass of thin nodes in the open over the widths along x of the cells around them, kg/m.
+double thin_mass_per_width(const Grid& grid, int j, int k) {
+  return 0.125 * thin_density * (grid.dy[j - 1] + grid.dy[j]) * (grid.dz[k - 1] + grid.dz[k]);
+}
 
 /// Nodes of a row. With `some_held` those that are not `moving`, beside sleeping cells, stay at rest.
 template <class Row, bool some_held>
@@ -67,8 +74,9 @@ Accelerated accelerate_row(Fluid& fluid, double dt, int j, int k, Span nodes, Sp
   const double *hx = hourglass[0], *hy = hourglass[1], *hz = hourglass[2];
   double *un = fluid.next_velocity[0].data() + row, *vn = fluid.next_velocity[1].data() + row,
          *wn = fluid.next_velocity[2].data() + row, *mass = fluid.node_mass.data() + row;
-  double loss = 0, kinetic = 0, held_x = 0, held_y = 0, held_z = 0;
-#pragma omp simd reduction(+ : kinetic, loss, held_x, held_y, held_z)
+  const double *dx = fluid.grid.dx.data(), thin = thin_mass_per_width(fluid.grid, j, k);
+  double loss = 0, kinetic = 0, held_x = 0, held_y = 0, held_z = 0, least = 0;
+#pragma omp simd reduction(+ : kinetic, loss, held_x, held_y, held_z) reduction(min : least)
   for (std::ptrdiff_t n = nodes.first; n <= nodes.last; ++n) {
     const double node =
         0.125 * (((m[n] + m[n - 1]) + (my[n] + my[n - 1])) + ((mz[n] + mz[n - 1]) + (myz[n] + myz[n - 1])));
@@ -88,10 +96,14 @@ Accelerated accelerate_row(Fluid& fluid, double dt, int j, int k, Span nodes, Sp
     vn[n] = y_new;
     wn[n] = z_new;
     mass[n] = node;
+    least = std::min(least, node - thin * b * (dx[n - 1] + dx[n]));
     kinetic += 0.5 * node * (x_new * x_new + y_new * y_new + z_new * z_new);
     loss += -0.5 * (node > 0 ? dt : 0.0) * (hx[n] * (u[n] + x_new) + hy[n] * (v[n] + y_new) + hz[n] * (w[n] + z_new));
   }
-  return {loss, kinetic, {held_x, held_y, held_z}};
+  Accelerated done{loss, kinetic, {held_x, held_y, held_z}, {}};
+  for (std::ptrdiff_t n = nodes.first; least < 0 && n <= nodes.last; ++n)
+    if (mass[n] < thin * force.own.node(n) * (dx[n - 1] + dx[n])) done.thin.push_back(row + n);
+  return done;
 }
 
 /// Layer by layer through a block of nodes. What a layer of cells does to the nodes above it is kept for them.
@@ -202,6 +214,7 @@ double accelerate_nodes(Fluid& fluid, double dt) {
              [&](std::size_t number, const Block& block) { of_blocks[number] = March(fluid, dt, block).run(); });
   Accelerated sum;
   for (const Accelerated& block : of_blocks) sum.add(block);
+  fluid.thin_nodes = std::move(sum.thin);
   Account& account = fluid.account;
   account.hourglass += sum.dissipated;
   for (int d = 0; d < 3; ++d) account.rest_impulse[d] += sum.held[d] + dt * fluid.sleeping.at_rest.force[d];

@@ -5,7 +5,7 @@
 
 namespace polynya::fluid {
 
-/// Where energy, momentum and mass are, SI. The energies from `kinetic` to `swept_defect` add up to a constant.
+/// Where energy, momentum and mass are, SI. The energies from `kinetic` to `vapour` add up to a constant.
 /// Works and impulses are sums since the start; an energy is positive once it has left the fluid into that reservoir.
 struct Account {
   double kinetic = 0, internal = 0;
@@ -20,6 +20,7 @@ struct Account {
   std::array<double, 2> swept_volume{};  ///< that the walls of vehicle and ice gave way, m^3
   double swept_defect = 0;   ///< pressure times the change of volume, debris too, that is neither wall motion nor
                              ///< balanced among neighbours
+  double vapour = 0;         ///< minus the work of water's least pressure in cells that cavitate
   double released_room = 0;  ///< volume that breaking solids left at once, m^3
   std::array<double, 3> momentum{};
   std::array<std::array<double, 3>, 2> body_impulse{};  ///< to vehicle and ice (absolute pressure)
@@ -32,7 +33,7 @@ struct Account {
 
   double energy_sum() const {
     return kinetic + internal + gravity + remap_loss + hourglass + node_fix + put_to_rest + boundary_work +
-           boundary_energy + wall_work[0] + wall_work[1] + swept_defect;
+           boundary_energy + wall_work[0] + wall_work[1] + swept_defect + vapour;
   }
 };
 

@@ -15,6 +15,7 @@ void evaluate_row(const Law& law, double floor, double void_pressure, std::ptrdi
                   const double* __restrict mass, const double* __restrict energy, const double* __restrict volume,
                   double* __restrict pressure, double* __restrict bulk_modulus_out, double* __restrict density,
                   double* __restrict sound_speed) {
+  const double largest = 1.0 / least_wave_density(law);
   for (std::ptrdiff_t c = begin; c < end; ++c) {
     const bool filled = mass[c] > void_density * volume[c] && volume[c] > 0;
     const double m = filled ? mass[c] : 1.0, e = filled ? energy[c] : 0.0, v = filled ? volume[c] : 1.0;
@@ -25,7 +26,7 @@ void evaluate_row(const Law& law, double floor, double void_pressure, std::ptrdi
     pressure[c] = filled ? p : volume[c] > 0 ? void_pressure : 0.0;
     bulk_modulus_out[c] = filled && r.pressure > floor ? bulk : 0.0;
     density[c] = filled ? rho : 0.0;
-    sound_speed[c] = filled ? std::sqrt(bulk * v / m) : 0.0;
+    sound_speed[c] = filled ? std::sqrt(std::max(0.0, square_of_sound_speed(r, std::min(v / m, largest)))) : 0.0;
   }
 }
 

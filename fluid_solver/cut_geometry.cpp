@@ -132,6 +132,12 @@ std::ptrdiff_t CutGeometry::pressing_on(std::ptrdiff_t cell) const {
   return at != dry_walls.end() && at->cell == cell ? at->wet : cell;
 }
 
+const WallPiece* CutGeometry::wall_in(std::ptrdiff_t cell) const {
+  const auto at = std::lower_bound(walls.begin(), walls.end(), cell,
+                                   [](const WallPiece& wall, std::ptrdiff_t c) { return wall.cell < c; });
+  return at != walls.end() && at->cell == cell ? &*at : nullptr;
+}
+
 void CutGeometry::open_like(const CutGeometry& later) {
   std::vector<double> own_volume = std::move(volume);
   const std::vector<std::ptrdiff_t> own_cells = std::move(cells_), own_nodes = std::move(nodes_);

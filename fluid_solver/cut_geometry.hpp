@@ -41,6 +41,8 @@ struct CutGeometry {
   const std::vector<std::ptrdiff_t>& nodes() const { return nodes_; }
   /// The cell whose fluid presses on a dry wall in this cell; the cell itself where there is none.
   std::ptrdiff_t pressing_on(std::ptrdiff_t cell) const;
+  /// The piece of wall in a cell; null where there is none.
+  const WallPiece* wall_in(std::ptrdiff_t cell) const;
   /// Throws std::invalid_argument naming the first entry that is out of range or not a number.
   void set(const Grid& grid, const std::array<Boundary, 6>& boundary, const Overlap& overlap);
   /// Takes the open faces and the walls of `later` and keeps the volumes: the limit from the right at an instant when

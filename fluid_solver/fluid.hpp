@@ -119,8 +119,16 @@ struct Fluid {
                                    ///< that solids touch
   // Working space of a step.
   std::array<std::vector<double>, 3> face_coefficient;  ///< open area over the sum of node fractions of the face
-  std::array<std::vector<double>, 3> face_rate;         ///< volume per time through lower faces, m^3/s
-  std::array<std::vector<double>, 3> face_mass;         ///< mass through lower faces in this step, kg
+  /// What of a lower face is closed in this step for its nodes hold too little (held_faces.cpp), m^2.
+  struct HeldFace {
+    std::ptrdiff_t face;
+    int axis;
+    double area;
+  };
+  std::vector<HeldFace> held_faces;
+  std::vector<std::ptrdiff_t> thin_nodes;        ///< that held less than thin_density before the remap
+  std::array<std::vector<double>, 3> face_rate;  ///< volume per time through lower faces, m^3/s
+  std::array<std::vector<double>, 3> face_mass;  ///< mass through lower faces in this step, kg
   std::array<std::vector<double>, 3> next_velocity;
   // Rows that no solid touches, by i.
   std::vector<double> open_quarter, quarter_width;  ///< a quarter where the x-face is open; of dx, 0 in ghosts
@@ -161,14 +169,14 @@ struct Fluid {
   }
 
  private:
-  POLYNYA_STATE_MEMBERS_WITHOUT((setup, watch, face_rate, next_velocity), grid, setup, before, after, groups,
-                                group_states, own_compression, material, velocity, motion, ambient, beyond, far_field,
-                                start_damping, largest_density, account, sleeping, watch, time, steps,
-                                correction_iterations, pressure, predicted_pressure, wall_impulse, density,
-                                bulk_modulus, sound_speed, total_mass, face_coefficient, face_rate, face_mass,
-                                next_velocity, open_quarter, quarter_width, whole_nodes, node_fraction, node_mass,
-                                kinetic_loss, volume_change, viscosity, rate, donor, held_cells, held, row_held,
-                                sweep_volume, outflow, cut_rows, row_materials, label)
+  POLYNYA_STATE_MEMBERS_WITHOUT((setup, watch, held_faces, thin_nodes, face_rate, next_velocity), grid, setup, before,
+                                after, groups, group_states, own_compression, material, velocity, motion, ambient,
+                                beyond, far_field, start_damping, largest_density, account, sleeping, watch, time,
+                                steps, correction_iterations, pressure, predicted_pressure, wall_impulse, density,
+                                bulk_modulus, sound_speed, total_mass, face_coefficient, held_faces, thin_nodes,
+                                face_rate, face_mass, next_velocity, open_quarter, quarter_width, whole_nodes,
+                                node_fraction, node_mass, kinetic_loss, volume_change, viscosity, rate, donor,
+                                held_cells, held, row_held, sweep_volume, outflow, cut_rows, row_materials, label)
 };
 
 /// State of one cell for `fill`: fraction of the free volume, density and specific energy of each material.

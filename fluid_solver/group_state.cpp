@@ -132,7 +132,7 @@ void set_group_donors(Fluid& fluid, double dt) {
     double change = 0, work = 0;
     for (const auto& [c, parent] : members_of(fluid.groups, g)) {
       change += dt * fluid.rate[c];
-      work += dt * fluid.rate[c] * fluid.predicted_pressure[c];
+      work += dt * fluid.rate[c] * (fluid.predicted_pressure[c] - pressure_of_vapour(fluid, c));
     }
     const std::array<double, 2> share =
         volume_shares(fluid.setup.law, fluid.setup.pressure_floor, state.content, change);
@@ -168,12 +168,37 @@ void set_group_donors(Fluid& fluid, double dt) {
 
 namespace {
 
+/// From the leaves to the root each member shares its excess over its parent with it.
+std::vector<double> shares_of_cavitating(const Fluid& fluid, const MembersOfGroup& range, const double* compression) {
+  const auto volume = [&](std::size_t m) { return fluid.after.volume[range.first[m].cell]; };
+  const auto count = static_cast<std::size_t>(range.end() - range.begin());
+  std::vector<double> share(count);
+  for (std::size_t m = 0; m < count; ++m) share[m] = volume(m) * (1.0 + compression[m]);
+  for (std::size_t m = count - 1; m > 0; --m) {
+    const auto& [c, parent] = range.first[m];
+    const std::size_t p = position_of(range, parent, m);
+    const double own = volume(m), other = volume(p), together = own + other;
+    if (!(together > 0)) continue;
+    const double kept = std::min(kept_share(fluid.grid, c, own), kept_share(fluid.grid, parent, other));
+    const double moved = (1.0 - kept) * (share[m] * other - share[p] * own) / together;
+    share[m] -= moved;
+    share[p] += moved;
+  }
+  double sum = 0;
+  for (const double one : share) sum += one;
+  for (double& one : share) one /= sum;
+  return share;
+}
+
 /// Shares of the group's mass that its members get: by volume, more below, and where a member is compressed by itself.
 /// The emptier a cell under half full, the more of that is evened out: all of it in an empty cell, nothing in a
-/// half-full one, which would be a cell of its own. So cells join and leave groups without a jolt.
+/// half-full one, which would be a cell of its own. So cells join and leave groups without a jolt. In a group that
+/// cavitates the difference is evened out with the parent: a full void has a density of its own, but it is what the
+/// water of a film beside it spreads into.
 std::vector<double> mass_shares(const Fluid& fluid, std::size_t g) {
   const MembersOfGroup range = members_of(fluid.groups, g);
   const double* compression = fluid.own_compression.data() + fluid.groups.first[g];
+  if (cavitates(fluid.group_states[g])) return shares_of_cavitating(fluid, range, compression);
   std::vector<double> share;
   double sum = 0;
   for (const auto& [c, parent] : range) {

@@ -111,24 +111,38 @@ struct WorkRow {
   double lifted(std::ptrdiff_t i, std::ptrdiff_t sz) const { return qz[i] * (low * rho[i - sz] + high * rho[i]); }
 };
 
-/// A row of one material that no solid touches. Returns the work against gravity per time, as do the next ones.
-double work_in_open_row(Fluid& fluid, double dt, int j, int k, Material& own) {
+/// Sums over a row: work against gravity per time, and what the pressure of vapour did.
+using Works = std::array<double, 2>;
+
+/// Where a liquid cavitates, its least pressure is that of vapour at saturation, whose energy is not the liquid's: were
+/// it taken from there, the traces left in a void would be as hot as its whole volume once that closes. So this part of
+/// the work goes to the account and comes back from it. 0 Pa for materials that do not cavitate.
+double vapour_pressure(const Fluid& fluid, int material) {
+  return std::max(0.0, fluid.setup.pressure_floor[material]);
+}
+
+/// A row of one material that no solid touches.
+Works work_in_open_row(Fluid& fluid, double dt, int j, int k, int material) {
   const Grid& grid = fluid.grid;
   const std::ptrdiff_t row = grid.at(0, j, k), sy = grid.sy, sz = grid.sz;
   const WorkRow at(fluid, j, k);
-  const double area = grid.dy[j] * grid.dz[k], *dx = grid.dx.data(), *m = own.mass.data() + row;
+  Material& own = fluid.material[material];
+  const double area = grid.dy[j] * grid.dz[k], *dx = grid.dx.data(), *m = own.mass.data() + row,
+               *bulk = fluid.bulk_modulus.data() + row, vapour = vapour_pressure(fluid, material);
   double *volume = fluid.sweep_volume.data() + row, *e = own.energy.data() + row, *held = own.volume.data() + row;
   const Span cells = awake_cells(fluid, j, k);
-  double work = 0;
-#pragma omp simd reduction(+ : work)
+  double work = 0, of_vapour = 0;
+#pragma omp simd reduction(+ : work, of_vapour)
   for (int i = cells.first; i <= cells.last; ++i) {
     const double change = dt * at.flow(i, sy, sz), later = dx[i] * area + change;
+    const double apart = m[i] > 0 ? bulk[i] > 0 ? 0.0 : vapour : at.p[i];
     volume[i] = later;
-    e[i] -= m[i] > 0 ? at.p[i] * change : 0.0;
+    e[i] -= (at.p[i] - apart) * change;
+    of_vapour += apart * change;
     held[i] = m[i] > 0 ? later : 0.0;
     work += at.lifted(i, sz);
   }
-  return work;
+  return {work, of_vapour};
 }
 
 /// Any row: first what its volumes become, then the work on the materials.
@@ -151,18 +165,26 @@ double volumes_of_row(Fluid& fluid, double dt, int j, int k) {
   return work;
 }
 
-void work_on_one(Fluid& fluid, double dt, std::ptrdiff_t row, Span cells, Material& own) {
+/// Returns the work of vapour, as does the next one.
+double work_on_one(Fluid& fluid, double dt, std::ptrdiff_t row, Span cells, int material) {
+  Material& own = fluid.material[material];
+  const double *bulk = fluid.bulk_modulus.data() + row, vapour = vapour_pressure(fluid, material);
   const double *m = own.mass.data() + row, *p = fluid.predicted_pressure.data() + row, *rate = fluid.rate.data() + row,
                *volume = fluid.sweep_volume.data() + row;
   double *e = own.energy.data() + row, *held = own.volume.data() + row;
-#pragma omp simd
+  double of_vapour = 0;
+#pragma omp simd reduction(+ : of_vapour)
   for (int i = cells.first; i <= cells.last; ++i) {
-    e[i] -= m[i] > 0 ? dt * p[i] * rate[i] : 0.0;
+    const double change = dt * rate[i], apart = m[i] > 0 ? bulk[i] > 0 ? 0.0 : vapour : p[i];
+    e[i] -= (p[i] - apart) * change;
+    of_vapour += apart * change;
     held[i] = m[i] > 0 ? volume[i] : 0.0;
   }
+  return of_vapour;
 }
 
-void work_on_both(Fluid& fluid, std::ptrdiff_t row, Span cells) {
+double work_on_both(Fluid& fluid, std::ptrdiff_t row, Span cells) {
+  double of_vapour = 0;
   for (std::ptrdiff_t c = row + cells.first; c <= row + cells.last; ++c) {
     const double change = fluid.sweep_volume[c] - fluid.before.volume[c];
     Mixture mixture;
@@ -172,36 +194,47 @@ void work_on_both(Fluid& fluid, std::ptrdiff_t row, Span cells) {
       mixture.volume[m] = fluid.material[m].volume[c];
     }
     const std::array<double, 2> share = volume_shares(fluid.setup.law, fluid.setup.pressure_floor, mixture, change);
+    const double p = fluid.predicted_pressure[c], apart = pressure_of_vapour(fluid, c);
+    of_vapour += apart * change;
     for (int m = 0; m < 2; ++m) {
-      fluid.material[m].energy[c] -= fluid.predicted_pressure[c] * change * share[m];
+      fluid.material[m].energy[c] -= (p - apart) * change * share[m];
       fluid.material[m].volume[c] += change * share[m];
     }
   }
+  return of_vapour;
 }
 
 }  // namespace
 
+double pressure_of_vapour(const Fluid& fluid, std::ptrdiff_t cell) {
+  const bool has_water = fluid.material[water].mass[cell] > 0, has_air = fluid.material[air].mass[cell] > 0;
+  if (!has_water && !has_air) return fluid.predicted_pressure[cell];
+  if ((has_water && has_air) || fluid.bulk_modulus[cell] > 0) return 0;
+  return vapour_pressure(fluid, has_water ? water : air);
+}
+
 void work_and_volumes(Fluid& fluid, double dt) {
   const Grid& grid = fluid.grid;
-  const double lifted = row_sum(grid, 0, [&](int j, int k) {
+  const Works done = row_sums<2>(grid, 0, [&](int j, int k) {
     const std::ptrdiff_t row = grid.at(0, j, k);
     const Span cells = awake_cells(fluid, j, k);
-    if (cells.empty()) return 0.0;
+    if (cells.empty()) return Works{};
     const int materials = fluid.row_materials[static_cast<std::size_t>(j + (grid.ny + 3) * k)];
-    Material& own = fluid.material[materials == 2 ? 1 : 0];
-    double work = 0;
+    const int own = materials == 2 ? 1 : 0;
+    Works work{};
     if (materials != 3 && untouched(fluid, j, k)) {
       work = work_in_open_row(fluid, dt, j, k, own);
     } else {
-      work = volumes_of_row(fluid, dt, j, k);
-      materials != 3 ? work_on_one(fluid, dt, row, cells, own) : work_on_both(fluid, row, cells);
+      work[0] = volumes_of_row(fluid, dt, j, k);
+      work[1] = materials != 3 ? work_on_one(fluid, dt, row, cells, own) : work_on_both(fluid, row, cells);
     }
     if (k < grid.nz) return work;
     const WorkRow at(fluid, j, k);
-    for (int i = cells.first; i <= cells.last; ++i) work += at.qz[i + grid.sz] * (at.high * at.rho[i]);
+    for (int i = cells.first; i <= cells.last; ++i) work[0] += at.qz[i + grid.sz] * (at.high * at.rho[i]);
     return work;
   });
-  fluid.account.gravity += dt * lifted;
+  fluid.account.gravity += dt * done[0];
+  fluid.account.vapour -= done[1];
 }
 
 void hold_cut_cells(Fluid& fluid) {

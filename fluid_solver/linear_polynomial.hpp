@@ -9,6 +9,9 @@ struct LinearPolynomial {
   double density = 1.2;  ///< reference density, kg/m^3
   double c0 = 0, c1 = 0, c2 = 0, c3 = 0, c4 = 0.4, c5 = 0.4, c6 = 0;
 
+  /// True if the pressure comes from the internal energy alone.
+  bool is_gas() const { return c0 == 0 && c1 == 0 && c2 == 0 && c3 == 0; }
+
   Response operator()(double rho, double e) const {
     const double mu = rho / density - 1.0, energy = density * e;
     const double factor = c4 + mu * (c5 + mu * c6);

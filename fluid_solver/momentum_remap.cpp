@@ -81,7 +81,8 @@ struct EdgeRow {
   }
 };
 
-/// A node that gives away more than half its mass: it gives at the velocity of the mixture of what it has and gets.
+/// A node that gives away more than half its mass, beside solids or where there is next to no fluid: it gives at the
+/// velocity of the mixture of what it has and gets.
 struct PassingNode {
   std::ptrdiff_t node;
   std::array<double, 3> own, donor;
@@ -101,11 +102,15 @@ double given_mass(const Fluid& fluid, std::ptrdiff_t n) {
 
 std::vector<PassingNode> passing_nodes(const Fluid& fluid) {
   constexpr std::size_t together = 512;
-  const std::size_t first = fluid.before.nodes().size(), count = first + fluid.after.nodes().size();
+  const std::array<const std::vector<std::ptrdiff_t>*, 3> lists{&fluid.before.nodes(), &fluid.after.nodes(),
+                                                                &fluid.thin_nodes};
+  const std::size_t first = lists[0]->size(), second = first + lists[1]->size(), count = second + lists[2]->size();
   std::vector<std::vector<PassingNode>> found((count + together - 1) / together);
   compute::for_chunks(count, together, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
-      const std::ptrdiff_t n = c < first ? fluid.before.nodes()[c] : fluid.after.nodes()[c - first];
+      const std::ptrdiff_t n = c < first    ? (*lists[0])[c]
+                               : c < second ? (*lists[1])[c - first]
+                                            : (*lists[2])[c - second];
       // Inside solids nothing flows.
       if (fluid.before.node_fraction[n] == 0 && fluid.after.node_fraction[n] == 0) continue;
       const double out = given_mass(fluid, n);

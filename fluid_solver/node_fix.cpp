@@ -6,7 +6,8 @@
 // stop it there would be a blow. The difference of momentum goes to the body, and reaches it a span later. A node of
 // mass m_f (per area) that followed a wall of mass m_s at once would make the pair swing up by sqrt(m_f / m_s) per span
 // where the wall is lighter; following by the share b it is sqrt(b m_f / m_s), the root of x^2 - (1 - b) x + b m_f /
-// m_s.
+// m_s. A node in a void has no inertia at all and follows its neighbours like one that is covered; amid a void it
+// rests.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -177,6 +178,35 @@ std::vector<Change> find_changes(const Fluid& fluid, double follow) {
 }
 
 }  // namespace
+
+void calm_void_nodes(Fluid& fluid) {
+  const Grid& grid = fluid.grid;
+  const auto is_void = [&](std::ptrdiff_t n) {
+    int i, j, k;
+    grid.position(n, i, j, k);
+    const double volume =
+        0.125 * (grid.dx[i - 1] + grid.dx[i]) * (grid.dy[j - 1] + grid.dy[j]) * (grid.dz[k - 1] + grid.dz[k]);
+    return fluid.node_mass[n] <= void_density * volume;
+  };
+  for (const std::ptrdiff_t n : fluid.thin_nodes) {
+    if (!is_void(n)) continue;
+    double weight = 0;
+    std::array<double, 3> mean{};
+    for (int axis = 0; axis < 3; ++axis)
+      for (const std::ptrdiff_t other : {n - grid.stride(axis), n + grid.stride(axis)}) {
+        if (is_void(other)) continue;
+        weight += fluid.node_mass[other];
+        for (int d = 0; d < 3; ++d) mean[d] += fluid.node_mass[other] * fluid.velocity[d][other];
+      }
+    for (int d = 0; d < 3; ++d) {
+      double& u = fluid.velocity[d][n];
+      const double later = weight > 0 ? mean[d] / weight : 0.0;
+      fluid.account.node_fix_impulse[d] += fluid.node_mass[n] * (u - later);
+      fluid.account.node_fix += 0.5 * fluid.node_mass[n] * (u * u - later * later);
+      u = later;
+    }
+  }
+}
 
 void fix_covered_nodes(Fluid& fluid, double follow) {
   fluid.wall_impulse.assign(fluid.after.walls.size(), {});

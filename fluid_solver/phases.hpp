@@ -49,6 +49,11 @@ void rest_boundaries(Fluid& fluid);
 /// Repeats the pressure of the outermost cells in the ghosts.
 void mirror_pressure(Fluid& fluid);
 
+/// held_faces.cpp: nodes beside solids that hold next to nothing weigh less, and faces that have no others are closed in
+/// part for this step; what presses on these goes to the bodies, after fix_covered_nodes, which starts the sums.
+void hold_light_faces(Fluid& fluid);
+void book_held_faces(Fluid& fluid, double dt);
+
 /// predicted_pressure.cpp
 void predict_pressure(Fluid& fluid, double dt);
 /// Coefficient of the shock viscosity that is linear in the closing speed beside solids, at the present time.
@@ -63,6 +68,9 @@ void face_rates(const Fluid& fluid, const std::array<std::vector<double>, 3>& ve
 /// The same for the faces of the outer boundary alone, at the velocities of the beginning of the step.
 void boundary_face_rates(Fluid& fluid);
 void work_and_volumes(Fluid& fluid, double dt);
+/// The part of a cell's predicted pressure whose work goes to the account instead of the cell's energy, Pa: vapour's
+/// where a material is alone and cavitates, all of it where nothing is.
+double pressure_of_vapour(const Fluid& fluid, std::ptrdiff_t cell);
 /// Lists the cells that solids cut and members of groups, and what they will give in the remap.
 void hold_cut_cells(Fluid& fluid);
 /// wall_account.cpp
@@ -80,6 +88,8 @@ void remap_momentum(Fluid& fluid);
 /// Nodes at and inside solids; those before a flat wall take the share `follow` of the difference to its velocity.
 inline constexpr double follow_in_a_step = 0.4;
 void fix_covered_nodes(Fluid& fluid, double follow = follow_in_a_step);
+/// Thin nodes that are left in a void: what they carry is of traces left by rounding.
+void calm_void_nodes(Fluid& fluid);
 
 /// guard.cpp: equations of state out of their range, in what evaluate_groups left. Throws FluidError.
 void check_ranges(const Fluid& fluid);

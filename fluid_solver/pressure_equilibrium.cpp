@@ -63,7 +63,7 @@ PointState point_state(const EquationOfState& law, double floor, double mass, do
   const double rho = mass / volume;
   const Response r = respond(law, rho, energy / mass);
   const double bulk = std::max(0.0, bulk_modulus(rho, r));
-  return {std::max(r.pressure, floor), r.pressure > floor ? bulk : 0.0, std::sqrt(bulk / rho)};
+  return {std::max(r.pressure, floor), r.pressure > floor ? bulk : 0.0, sound_speed(law, rho, r)};
 }
 
 PointState equilibrate(const std::array<EquationOfState, 2>& law, const std::array<double, 2>& floor,

@@ -41,4 +41,8 @@ inline constexpr double dormant_fraction = 1e-9;
 /// its pressure is the lower bound of water's. kg/m^3
 inline constexpr double void_density = 1e-6;
 
+/// Around fluid thinner than this, an eightieth of air at the atmosphere's pressure, dense fluid may pass through a node
+/// in a step that holds next to nothing itself. kg/m^3
+inline constexpr double thin_density = 0.015;
+
 }  // namespace polynya::fluid

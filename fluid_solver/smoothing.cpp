@@ -1,7 +1,8 @@
 // Pressures that alternate from cell to cell push no node, so nothing in the Lagrange phase would ever even them out. A
 // little water moves, at constant volume, from the high to the low of that pattern only: the difference across a face
 // less its (1,2,1)x(1,2,1) mean. Fields that vary along one axis alone, hydrostatic pressure and plane waves too, do
-// not feel it. Faces whose surroundings are cut are left out. (After Rhie & Chow 1983.)
+// not feel it. Faces whose surroundings are cut are left out, and those of cells that cavitate, whose pressure says
+// nothing of what they hold: a void would give more than it has. (After Rhie & Chow 1983.)
 #include <algorithm>
 
 #include "fluid_solver/row_geometry.hpp"
@@ -48,7 +49,7 @@ void FaceSmoothing::faces(const Fluid& fluid, double dt, int axis, int j, int k,
   const std::ptrdiff_t row = grid.at(0, j, k), s = grid.stride(axis);
   const std::ptrdiff_t t1 = grid.stride((axis + 1) % 3), t2 = grid.stride((axis + 2) % 3);
   const double *p = fluid.pressure.data() + row, *sound = fluid.sound_speed.data() + row,
-               *b = fluid.node_fraction.data() + row;
+               *bulk = fluid.bulk_modulus.data() + row, *b = fluid.node_fraction.data() + row;
   const double *mean = mean_across(fluid, axis, j, k),
                *before = axis == 0 ? mean - 1 : mean_across(fluid, axis, below_j, below_k);
   const double area_by_dx = axis == 0   ? 0
@@ -57,7 +58,7 @@ void FaceSmoothing::faces(const Fluid& fluid, double dt, int axis, int j, int k,
                area_x = axis == 0 ? grid.dy[j] * grid.dz[k] : 0.0;
   const double* dx = grid.dx.data();
   const auto smooth = [=](std::ptrdiff_t i) {
-    const double rate = smoothing * dt / std::max(sound[i], 1.0);
+    const double rate = std::min(bulk[i], bulk[i - s]) > 0 ? smoothing * dt / std::max(sound[i], 1.0) : 0.0;
     return rate * (area_x + area_by_dx * dx[i]) * ((p[i] - p[i - s]) - (mean[i] - before[i]));
   };
   // Both cells of a face are awake: nothing enters those that sleep.

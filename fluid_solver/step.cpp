@@ -50,6 +50,10 @@ bool evaluate_states(Fluid& fluid) {
     const auto lap = fluid.watch.lap("sleeping");
     look_at_disturbances(fluid);
   }
+  {
+    const auto lap = fluid.watch.lap("face_coefficients");
+    hold_light_faces(fluid);
+  }
   const auto lap = fluid.watch.lap("guard");
   check_ranges(fluid);
   return true;
@@ -102,7 +106,9 @@ void remap(Fluid& fluid, Step& now) {
   }
   const auto lap = fluid.watch.lap("wall nodes");
   now.taken_from_nodes = -fluid.account.node_fix;
+  calm_void_nodes(fluid);
   fix_covered_nodes(fluid);
+  book_held_faces(fluid, now.dt);
   close_wall_nodes(fluid);
   now.taken_from_nodes += fluid.account.node_fix;
 }

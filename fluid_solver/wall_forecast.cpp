@@ -37,10 +37,8 @@ Expected expected_in(const Fluid& fluid, std::ptrdiff_t cell, const Motion& moti
 }
 
 double wall_size(const Fluid& fluid, std::ptrdiff_t cell) {
-  const auto& walls = fluid.after.walls;
-  const auto at = std::lower_bound(walls.begin(), walls.end(), cell,
-                                   [](const WallPiece& wall, std::ptrdiff_t c) { return wall.cell < c; });
-  return at != walls.end() && at->cell == cell ? at->size : 0.0;
+  const WallPiece* wall = fluid.after.wall_in(cell);
+  return wall ? wall->size : 0.0;
 }
 
 /// A cell that is in no group is at least half full. `size`: of the walls that it presses on, m^2.

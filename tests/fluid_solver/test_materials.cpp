@@ -60,6 +60,21 @@ TEST(EquationOfState, DensityAndEnergyInvertThePressure) {
   EXPECT_NEAR(respond(gas, 2.0, energy_at(gas, 2.0, 3e5)).pressure, 3e5, 1e-9);
 }
 
+TEST(EquationOfState, HotTracesOfWaterInAirLetNoWaveOutrunThoseOfWater) {
+  const EquationOfState law = MieGrueneisen{};
+  // Met in a cell that ice had closed: nearly all air, and a trace of water at its pressure, heated by work.
+  const double density = 0.0045, energy = energy_at(law, density, 1e5);
+  const Response r = respond(law, density, energy);
+  ASSERT_GT(std::sqrt(bulk_modulus(density, r) / density), 1e5);
+  EXPECT_LT(point_state(law, 2339.0, density, energy * density, 1.0).sound_speed, 2500.0);
+  EXPECT_NEAR(point_state(law, 2339.0, 1000.0, 0.0, 1.0).sound_speed, 1480.0, 1e-9);
+  EXPECT_NEAR(point_state(law, 2339.0, 970.0, 2e3, 1.0).sound_speed,
+              std::sqrt(bulk_modulus(970.0, respond(law, 970.0, 2e3 / 970.0)) / 970.0), 1e-9);
+  const double thin = 1e-4;  // gases have theirs at any density
+  EXPECT_NEAR(point_state(LinearPolynomial{}, 0.0, thin, 2e5 * thin, 1.0).sound_speed, std::sqrt(1.4 * 0.4 * 2e5),
+              1e-6);
+}
+
 TEST(PressureEquilibrium, ConservesMassVolumeAndTotalEnergy) {
   const std::array<EquationOfState, 2> law{MieGrueneisen{}, LinearPolynomial{}};
   const std::array<double, 2> floor{2339, 0};
