@@ -4,10 +4,11 @@
 // little mass there any speed, and the volume that it sweeps would be crushed in one step.
 //
 // Such a node weighs in its faces only by what it holds, so the others carry the flow. Where all nodes of a face are
-// light, the face itself is held: a node whose mass is the part b of a whole node's, on faces of which the part f is
-// open, is f^2 / b times as stiff as a whole node in the open, and no more is let through than keeps this below 1 for
-// the nodes together, f at most (sum of b) / sqrt(largest b). The rest counts as wall in this step: the difference of
-// pressure over it goes to the body beside it. Free surfaces, drops, films, slits and pockets have more at their nodes.
+// light, or have no room yet, the face itself is held: a node whose mass is the part b of a whole node's, on faces of
+// which the part f is open, is f^2 / b times as stiff as a whole node in the open, and no more is let through than
+// keeps this below 1 for the nodes together, f at most (sum of b) / sqrt(largest b). The rest counts as wall in this
+// step: the difference of pressure over it goes to the body beside it. Free surfaces, drops, films, slits and pockets
+// have more at their nodes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,37 +27,43 @@ struct LightNode {
   double part;  ///< its mass over that of a whole node
 };
 
-/// Mass of a node over what it would be if all around were free and as dense as the densest cell there that can push;
-/// infinite where nothing pushes.
-double part_of_whole(const Fluid& fluid, std::ptrdiff_t node) {
-  double mass = 0, volume = 0, density = 0;
+/// Mass of a node over what it would be if all around were free and of this density; 0 stands for that of the densest
+/// cell around that can push. Infinite where nothing pushes.
+double part_of_whole(const Fluid& fluid, std::ptrdiff_t node, double density = 0) {
+  const bool find = density == 0;
+  double mass = 0, volume = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const std::ptrdiff_t c = node - (corner & 1) - (corner & 2 ? fluid.grid.sy : 0) - (corner & 4 ? fluid.grid.sz : 0);
     mass += fluid.material[water].mass[c] + fluid.material[air].mass[c];
     volume += fluid.grid.cell_volume[c];
-    if (fluid.bulk_modulus[c] > 0) density = std::max(density, fluid.density[c]);
+    if (find && fluid.bulk_modulus[c] > 0) density = std::max(density, fluid.density[c]);
   }
   return density > 0 ? mass / (density * volume) : 1e300;
 }
 
-/// Corners of the cells with wall that held fluid or will, each once, ascending.
-std::vector<std::ptrdiff_t> nodes_beside_walls(const Fluid& fluid) {
-  std::vector<std::ptrdiff_t> nodes;
-  for (const CutGeometry* cut : {&fluid.before, &fluid.after})
-    for (const WallPiece& wall : cut->walls) {
-      const std::ptrdiff_t c = wall.cell;
-      if (!(fluid.before.volume[c] > 0) && !(fluid.after.volume[c] > 0)) continue;
-      for (int corner = 0; corner < 8; ++corner)
-        nodes.push_back(c + (corner & 1) + (corner & 2 ? fluid.grid.sy : 0) + (corner & 4 ? fluid.grid.sz : 0));
-    }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
+template <class Value>
+void make_unique(std::vector<Value>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-std::vector<LightNode> light_nodes(const Fluid& fluid) {
+/// The cells with wall that held fluid or will, each once, ascending.
+std::vector<std::ptrdiff_t> wet_cells(const Fluid& fluid) {
+  std::vector<std::ptrdiff_t> cells;
+  for (const CutGeometry* cut : {&fluid.before, &fluid.after})
+    for (const WallPiece& wall : cut->walls)
+      if (fluid.before.volume[wall.cell] > 0 || fluid.after.volume[wall.cell] > 0) cells.push_back(wall.cell);
+  make_unique(cells);
+  return cells;
+}
+
+std::vector<LightNode> light_nodes(const Fluid& fluid, const std::vector<std::ptrdiff_t>& cells) {
   constexpr std::size_t together = 512;
-  const std::vector<std::ptrdiff_t> nodes = nodes_beside_walls(fluid);
+  std::vector<std::ptrdiff_t> nodes;
+  for (const std::ptrdiff_t c : cells)
+    for (int corner = 0; corner < 8; ++corner)
+      nodes.push_back(c + (corner & 1) + (corner & 2 ? fluid.grid.sy : 0) + (corner & 4 ? fluid.grid.sz : 0));
+  make_unique(nodes);
   std::vector<std::vector<LightNode>> found((nodes.size() + together - 1) / together);
   compute::for_chunks(nodes.size(), together, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
@@ -81,7 +88,7 @@ double sum_of_fractions(const Fluid& fluid, std::ptrdiff_t face, int axis) {
   return sum;
 }
 
-/// A face around light nodes, with its area while these still had the weight of their room.
+/// A face that may have to be held, with its area while light nodes still have the weight of their room.
 struct Face {
   std::ptrdiff_t face;
   int axis;
@@ -89,34 +96,54 @@ struct Face {
   auto operator<=>(const Face&) const = default;
 };
 
-std::vector<Face> faces_around(const Fluid& fluid, const std::vector<LightNode>& nodes) {
+double open_part(const Fluid& fluid, std::ptrdiff_t face, int axis) {
+  return 0.5 * (fluid.before.open[axis][face] + fluid.after.open[axis][face]);
+}
+
+void add_face(const Fluid& fluid, std::ptrdiff_t face, int axis, std::vector<Face>& faces) {
+  const double coefficient = fluid.face_coefficient[axis][face];
+  if (coefficient > 0) faces.push_back({face, axis, coefficient * sum_of_fractions(fluid, face, axis)});
+}
+
+/// What a face whose nodes have these parts of a whole node's room or mass may be open.
+double most_open(const std::array<double, 4>& parts) {
+  const double largest = *std::max_element(parts.begin(), parts.end());
+  return largest > 0 ? ((parts[0] + parts[1]) + (parts[2] + parts[3])) / std::sqrt(largest) : 0.0;
+}
+
+/// Faces around light nodes, and those of cells with wall that are opening before their nodes have room.
+std::vector<Face> faces_to_weigh(const Fluid& fluid, const std::vector<std::ptrdiff_t>& cells,
+                                 const std::vector<LightNode>& nodes) {
   std::vector<Face> faces;
   for (const auto& [node, part] : nodes)
     for (int axis = 0; axis < 3; ++axis)
-      for (const std::ptrdiff_t mirrored : nodes_of(fluid.grid, 0, axis)) {
-        const std::ptrdiff_t face = node - mirrored;
-        const double coefficient = fluid.face_coefficient[axis][face];
-        if (coefficient > 0) faces.push_back({face, axis, coefficient * sum_of_fractions(fluid, face, axis)});
+      for (const std::ptrdiff_t mirrored : nodes_of(fluid.grid, 0, axis)) add_face(fluid, node - mirrored, axis, faces);
+  for (const std::ptrdiff_t cell : cells)
+    for (int axis = 0; axis < 3; ++axis)
+      for (const std::ptrdiff_t face : {cell, cell + fluid.grid.stride(axis)}) {
+        std::array<double, 4> room;
+        std::ranges::transform(nodes_of(fluid.grid, face, axis), room.begin(),
+                               [&](std::ptrdiff_t node) { return fluid.node_fraction[node]; });
+        if (open_part(fluid, face, axis) > most_open(room)) add_face(fluid, face, axis, faces);
       }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  make_unique(faces);
   return faces;
 }
 
-/// The part of a face that may be open for its nodes' sake.
+/// The part of a face that may be open for its nodes' sake: whole nodes are of the denser cell beside it that can push.
 double most_open(const Fluid& fluid, std::ptrdiff_t face, int axis) {
-  double sum = 0, largest = 0;
-  for (const std::ptrdiff_t node : nodes_of(fluid.grid, face, axis)) {
-    const double part = std::min(part_of_whole(fluid, node), 1.0);
-    sum += part;
-    largest = std::max(largest, part);
-  }
-  return largest > 0 ? sum / std::sqrt(largest) : 0.0;
+  double density = 0;
+  for (const std::ptrdiff_t cell : {face - fluid.grid.stride(axis), face})
+    if (fluid.bulk_modulus[cell] > 0) density = std::max(density, fluid.density[cell]);
+  if (density == 0) return 1;
+  std::array<double, 4> mass;
+  std::ranges::transform(nodes_of(fluid.grid, face, axis), mass.begin(),
+                         [&](std::ptrdiff_t node) { return std::min(part_of_whole(fluid, node, density), 1.0); });
+  return most_open(mass);
 }
 
 void weigh_anew(Fluid& fluid, const Face& face) {
-  const double sum = sum_of_fractions(fluid, face.face, face.axis),
-               open = 0.5 * (fluid.before.open[face.axis][face.face] + fluid.after.open[face.axis][face.face]),
+  const double sum = sum_of_fractions(fluid, face.face, face.axis), open = open_part(fluid, face.face, face.axis),
                kept = std::min(1.0, most_open(fluid, face.face, face.axis) / open);
   fluid.face_coefficient[face.axis][face.face] = sum > 0 ? kept * face.area / sum : 0.0;
   if (kept < 1) fluid.held_faces.push_back({face.face, face.axis, face.area * (1.0 - kept)});
@@ -126,8 +153,9 @@ void weigh_anew(Fluid& fluid, const Face& face) {
 
 void hold_light_faces(Fluid& fluid) {
   fluid.held_faces.clear();
-  const std::vector<LightNode> nodes = light_nodes(fluid);
-  const std::vector<Face> faces = faces_around(fluid, nodes);
+  const std::vector<std::ptrdiff_t> cells = wet_cells(fluid);
+  const std::vector<LightNode> nodes = light_nodes(fluid, cells);
+  const std::vector<Face> faces = faces_to_weigh(fluid, cells, nodes);
   for (const auto& [node, part] : nodes) fluid.node_fraction[node] = part / light;
   for (const Face& face : faces) weigh_anew(fluid, face);
 }
