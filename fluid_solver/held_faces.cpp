@@ -88,11 +88,10 @@ double sum_of_fractions(const Fluid& fluid, std::ptrdiff_t face, int axis) {
   return sum;
 }
 
-/// A face that may have to be held, with its area while light nodes still have the weight of their room.
+/// A face that may have to be held.
 struct Face {
   std::ptrdiff_t face;
   int axis;
-  double area;  ///< m^2
   auto operator<=>(const Face&) const = default;
 };
 
@@ -100,9 +99,14 @@ double open_part(const Fluid& fluid, std::ptrdiff_t face, int axis) {
   return 0.5 * (fluid.before.open[axis][face] + fluid.after.open[axis][face]);
 }
 
-void add_face(const Fluid& fluid, std::ptrdiff_t face, int axis, std::vector<Face>& faces) {
-  const double coefficient = fluid.face_coefficient[axis][face];
-  if (coefficient > 0) faces.push_back({face, axis, coefficient * sum_of_fractions(fluid, face, axis)});
+double open_area(const Fluid& fluid, std::ptrdiff_t face, int axis) {
+  int i, j, k;
+  fluid.grid.position(face, i, j, k);
+  const Grid& grid = fluid.grid;
+  const double whole = axis == 0   ? grid.dy[j] * grid.dz[k]
+                       : axis == 1 ? grid.dx[i] * grid.dz[k]
+                                   : grid.dx[i] * grid.dy[j];
+  return open_part(fluid, face, axis) * whole;
 }
 
 /// What a face whose nodes have these parts of a whole node's room or mass may be open.
@@ -117,14 +121,15 @@ std::vector<Face> faces_to_weigh(const Fluid& fluid, const std::vector<std::ptrd
   std::vector<Face> faces;
   for (const auto& [node, part] : nodes)
     for (int axis = 0; axis < 3; ++axis)
-      for (const std::ptrdiff_t mirrored : nodes_of(fluid.grid, 0, axis)) add_face(fluid, node - mirrored, axis, faces);
+      for (const std::ptrdiff_t mirrored : nodes_of(fluid.grid, 0, axis))
+        if (open_part(fluid, node - mirrored, axis) > 0) faces.push_back({node - mirrored, axis});
   for (const std::ptrdiff_t cell : cells)
     for (int axis = 0; axis < 3; ++axis)
       for (const std::ptrdiff_t face : {cell, cell + fluid.grid.stride(axis)}) {
         std::array<double, 4> room;
         std::ranges::transform(nodes_of(fluid.grid, face, axis), room.begin(),
                                [&](std::ptrdiff_t node) { return fluid.node_fraction[node]; });
-        if (open_part(fluid, face, axis) > most_open(room)) add_face(fluid, face, axis, faces);
+        if (open_part(fluid, face, axis) > most_open(room)) faces.push_back({face, axis});
       }
   make_unique(faces);
   return faces;
@@ -142,11 +147,12 @@ double most_open(const Fluid& fluid, std::ptrdiff_t face, int axis) {
   return most_open(mass);
 }
 
-void weigh_anew(Fluid& fluid, const Face& face) {
-  const double sum = sum_of_fractions(fluid, face.face, face.axis), open = open_part(fluid, face.face, face.axis),
-               kept = std::min(1.0, most_open(fluid, face.face, face.axis) / open);
-  fluid.face_coefficient[face.axis][face.face] = sum > 0 ? kept * face.area / sum : 0.0;
-  if (kept < 1) fluid.held_faces.push_back({face.face, face.axis, face.area * (1.0 - kept)});
+void weigh_anew(Fluid& fluid, const Face& at) {
+  const auto [face, axis] = at;
+  const double sum = sum_of_fractions(fluid, face, axis), area = open_area(fluid, face, axis);
+  const double kept = sum > 0 ? std::min(1.0, most_open(fluid, face, axis) / open_part(fluid, face, axis)) : 0.0;
+  fluid.face_coefficient[axis][face] = sum > 0 ? kept * area / sum : 0.0;
+  if (kept < 1) fluid.held_faces.push_back({face, axis, area * (1.0 - kept)});
 }
 
 }  // namespace
