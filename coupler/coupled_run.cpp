@@ -47,6 +47,13 @@ void check_cut(Run& run) {
                              " of a cell at t = " + std::to_string(run.keeper.time));
 }
 
+void check_following(const scene::Scene& scene, const FluidSide& fluid) {
+  if (scene.fluid->grid_follows == "vehicle" && !fluid.grid_follows)
+    throw exchange::ProtocolError("participant '" + fluid.name +
+                                  "': fluid.grid_follows is vehicle, but its 'ready' has no header 'grid_shift'; the "
+                                  "program's grid must move, or the scene's stay");
+}
+
 void begin(Run& run, const std::vector<std::string>& names) {
   const auto lap = run.watch.lap("messages");
   receive_ready(run.conversation, names);
@@ -55,6 +62,7 @@ void begin(Run& run, const std::vector<std::string>& names) {
   run.limits.longest_span = run.scene.run.frame_interval / 100;
   if (run.conversation.fluid) {
     FluidSide& fluid = *run.conversation.fluid;
+    check_following(run.scene, fluid);
     make_overlap(run);
     const geometry::CutCells& cells = cut_grid(run);
     check_cut(run);
@@ -67,7 +75,7 @@ void begin(Run& run, const std::vector<std::string>& names) {
     run.conversation.hub.send(fluid.name, std::move(message));
     run.overlap->prepare();
     const exchange::Message answer = run.conversation.hub.receive(fluid.name, "pressure");
-    fluid.stable_step = answer.header.at("stable_step").get<double>();
+    fluid.read_answer_header(answer);
     fluid.account.set_initial(answer);
     run.overlap->set_start_forces(run.conversation, read_pressure(answer, "pressure.", cells));
   }
@@ -136,6 +144,11 @@ void find_contact(Run& run) {
 
 /// Lets the fluid step over the span that just ended.
 void send_span(Run& run, long frame) {
+  FluidSide& fluid = *run.conversation.fluid;
+  if (fluid.grid_follows) {
+    fluid.move_grid(run.keeper.time - run.keeper.span_start);
+    run.overlap->move_grid(fluid.grid);
+  }
   const geometry::CutCells& cells = cut_grid(run);
   const auto lap = run.watch.lap("messages");
   exchange::Message message("span");
@@ -144,10 +157,11 @@ void send_span(Run& run, long frame) {
   message.header["time1"] = run.keeper.time;
   message.header["finish"] = !run.end.empty();
   message.header["frame"] = frame;
+  if (fluid.grid_follows) message.header["grid_shift"] = fluid.grid_shift;
   if (!run.checkpoint.empty()) message.header["checkpoint"] = run.checkpoint;
-  if (const int threads = std::exchange(run.conversation.fluid->new_threads, 0)) message.header["threads"] = threads;
-  add_overlap(message, cells, run.conversation.fluid->grid);
-  run.conversation.hub.send(run.conversation.fluid->name, std::move(message));
+  if (const int threads = std::exchange(fluid.new_threads, 0)) message.header["threads"] = threads;
+  add_overlap(message, cells, fluid.grid);
+  run.conversation.hub.send(fluid.name, std::move(message));
 }
 
 /// The fluid computes meanwhile.
@@ -176,7 +190,7 @@ void take_fluid_loads(Run& run, const exchange::Message& answer) {
   FluidSide& fluid = *run.conversation.fluid;
   const geometry::CutCells& cells = run.overlap->now();
   const double length = run.keeper.time - run.keeper.span_start;
-  fluid.stable_step = answer.header.at("stable_step").get<double>();
+  fluid.read_answer_header(answer);
   fluid.account.update(answer);
   for (SolidSide& side : run.conversation.solids) {
     side.seen_velocity = side.mean_velocity();

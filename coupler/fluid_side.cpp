@@ -9,6 +9,14 @@
 
 namespace polynya::coupler {
 
+namespace {
+
+void place_planes(FluidSide& side) {
+  for (std::size_t p = 0; p < side.first_z.size(); ++p) side.grid.lines[2][p] = side.first_z[p] + side.grid_shift;
+}
+
+}  // namespace
+
 FluidSide read_fluid_ready(const std::string& name, const exchange::Message& ready) {
   FluidSide side;
   side.name = name;
@@ -24,7 +32,21 @@ FluidSide read_fluid_ready(const std::string& name, const exchange::Message& rea
     return std::vector<double>(values.begin(), values.end());
   };
   side.grid.lines = {line("grid.x"), line("grid.y"), line("grid.z")};
+  side.first_z = side.grid.lines[2];
+  side.grid_follows = ready.header.contains("grid_shift");
+  side.grid_shift = ready.header.value("grid_shift", 0.0);
+  place_planes(side);
   return side;
+}
+
+void FluidSide::read_answer_header(const exchange::Message& answer) {
+  stable_step = answer.header.at("stable_step").get<double>();
+  if (grid_follows) grid_speed = answer.header.at("grid_speed").get<double>();
+}
+
+void FluidSide::move_grid(double span) {
+  grid_shift += grid_speed * span;
+  place_planes(*this);
 }
 
 namespace {

@@ -36,13 +36,23 @@ struct FluidSide {
   double stable_step = 0;  ///< s
   int new_threads = 0;     ///< number of threads to suggest with the next span; 0: nothing new
   Account account;
-  geometry::GridLines grid;
+  geometry::GridLines grid;   ///< where it is now
+  bool grid_follows = false;  ///< the vehicle: then each span takes the planes across z on by grid_speed
+  double grid_speed = 0;      ///< m/s, in the next span
+  double grid_shift = 0;      ///< m, of the planes across z from where they were at first
   bool can_checkpoint = false;
   bool forecasts = false;  ///< every answer to a span tells what to expect of the next one
   double ready_time = 0;   ///< s, as a solid's
 
-  POLYNYA_STATE_WITHOUT((grid, ready_time), name, stable_step, new_threads, account, grid, can_checkpoint, forecasts,
-                        ready_time)
+  std::vector<double> first_z;  ///< m, planes that the shift counts from
+
+  /// Reads from an answer what it says of the next span.
+  void read_answer_header(const exchange::Message& answer);
+  /// Takes the grid on by a span of this length, s.
+  void move_grid(double span);
+
+  POLYNYA_STATE_WITHOUT((grid, ready_time, first_z), name, stable_step, new_threads, account, grid, grid_follows,
+                        grid_speed, grid_shift, can_checkpoint, forecasts, ready_time, first_z)
 };
 
 FluidSide read_fluid_ready(const std::string& name, const exchange::Message& ready);

@@ -22,6 +22,9 @@ class OverlapExchange {
   /// "debris_displacement" take the time.
   const geometry::CutCells& cut(const Conversation& conversation, compute::Stopwatch& watch);
 
+  /// Cuts another grid of as many cells from now on: the planes have moved.
+  void move_grid(const geometry::GridLines& grid) { cutter_.set_lines(grid); }
+
   /// What `take` needs of the last cut alone: while the fluid computes, there is time for it.
   void prepare();
   /// Cells that hold wall in the cut before and in the last one. After `prepare`.

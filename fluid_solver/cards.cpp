@@ -78,6 +78,7 @@ Fluid make_fluid(const scene::Scene& scene) {
   Fluid fluid{grid_of(scene), setup};
   if (description.dam) fill_column(fluid, description.dam->length, description.dam->height);
   move_grid(fluid, description);
+  if (description.grid_follows == "vehicle") let_grid_follow(fluid);
   return fluid;
 }
 

@@ -26,7 +26,13 @@ exchange::Message make_ready(const Fluid& fluid) {
   ready.add<double>("account", {rows(values.size())}, values);
   ready.add<double>("grid.x", {rows(fluid.grid.x.size())}, fluid.grid.x);
   ready.add<double>("grid.y", {rows(fluid.grid.y.size())}, fluid.grid.y);
-  ready.add<double>("grid.z", {rows(fluid.grid.z.size())}, fluid.grid.z);
+  if (!fluid.motion.follows) {
+    ready.add<double>("grid.z", {rows(fluid.grid.z.size())}, fluid.grid.z);
+    return ready;
+  }
+  const std::vector<double>& first = fluid.motion.first_line[2];
+  ready.add<double>("grid.z", {rows(first.size())}, first);
+  ready.header["grid_shift"] = fluid.motion.displaced[2][0];
   return ready;
 }
 
@@ -43,6 +49,7 @@ exchange::Message make_pressure(Fluid& fluid, const Overlap& overlap) {
   {
     const auto lap = fluid.watch.lap("account");
     message.header["stable_step"] = stable_step(fluid);
+    if (fluid.motion.follows) message.header["grid_speed"] = fluid.motion.speed[2][1];
   }
   add_pressure(message, fluid, overlap, "pressure.");
   const auto values = account_values(fluid.account);
@@ -56,6 +63,7 @@ void start(const scene::Scene& scene, Fluid& fluid, const Overlap& overlap) {
     const int iterations = start_potential_flow(fluid);
     spdlog::info("potential flow: {} iterations, kinetic energy {:.6g} J", iterations, fluid.account.kinetic);
   }
+  if (fluid.motion.follows) follow_vehicle(fluid);
   spdlog::info("start: water {:.9g} kg, air {:.9g} kg, stable step {:.3e} s, {} groups of cut cells",
                fluid.account.mass[water], fluid.account.mass[air], stable_step(fluid), fluid.groups.count());
 }
@@ -80,6 +88,12 @@ double positive_span(const exchange::Message& message, double time) {
   const double span = message.header.value("time1", 0.0) - time;
   if (!(span > 0)) throw exchange::ProtocolError("message 'span': header 'time1' must be later than the fluid's time");
   return span;
+}
+
+double grid_shift(const exchange::Message& message) {
+  if (!message.header.contains("grid_shift"))
+    throw exchange::ProtocolError("message 'span': header 'grid_shift' is missing; the grid follows the vehicle");
+  return message.header.at("grid_shift").get<double>();
 }
 
 /// What goes on from span to span.
@@ -142,6 +156,7 @@ void run_coupled(const scene::Scene& scene, Fluid& fluid, exchange::Participant&
       spdlog::info("potential flow: {} more iterations for the first step", iterations);
     }
     if (fluid.steps == 0) output.start(fluid);
+    if (fluid.motion.follows) follow_to(fluid, grid_shift(span));
     step(fluid, dt, next);
     {
       const auto lap = fluid.watch.lap("messages");

@@ -98,6 +98,9 @@ void update_face_coefficients(Fluid& fluid) {
       beta[n] = std::min(b0[n], b1[n]);
       change[n] = v1[n] - v0[n];
     }
+    if (!fluid.motion.follows) return;
+    for (std::ptrdiff_t n = begin; n < begin + grid.nx && j <= grid.ny && k <= grid.nz; ++n)
+      change[n] -= volume_by_planes(fluid, fluid.before, fluid.after, n);
   });
   for_rows(grid, 1, [&](int j, int k) {
     if (unchanged(j, k)) return;

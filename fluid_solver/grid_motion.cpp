@@ -1,8 +1,10 @@
-// A grid whose planes move by prescription (Hirt, Amsden & Cook 1974, J. Comput. Phys. 14:227; Benson 1992). The
-// Lagrange phase does not know of it. In the remap the volume through a face is that of the fluid less that of the
-// plane; the latter is (shift of the plane) times the widths across: new ones along axes already swept, old ones along
-// the others, so that the three sweeps add up to the product of the new widths (geometric conservation, Thomas &
-// Lombard 1979, AIAA J. 17:1030).
+// A grid whose planes move by prescription or follow a body (Hirt, Amsden & Cook 1974, J. Comput. Phys. 14:227; Benson
+// 1992). The Lagrange phase does not know of it. In the remap the volume through a face is that of the fluid less that
+// of the plane; the latter is (shift of the plane) times the widths across: new ones along axes already swept, old ones
+// along the others, so that the three sweeps add up to the product of the new widths (geometric conservation, Thomas &
+// Lombard 1979, AIAA J. 17:1030). Where solids close a part of a face, its plane sweeps the open part alone, open as in
+// the mean of the step's two ends; what of a cell's change of free volume this does not explain is the walls' motion
+// past the planes. A body that goes with its grid leaves volumes and faces as they are.
 #include "fluid_solver/grid_motion.hpp"
 
 #include <algorithm>
@@ -38,11 +40,19 @@ const std::vector<double>& width_in_sweep(const Fluid& fluid, int axis, int othe
 }
 
 void set_speeds(GridMotion& motion, double time) {
+  if (motion.follows) return;
   for (int axis = 0; axis < 3; ++axis) {
     const std::array<double, 2> ends = motion.prescribed[axis].speed_at(time);
     const std::vector<double>& line = motion.first_line[axis];
     for (std::size_t p = 0; p < line.size(); ++p) motion.speed[axis][p + 1] = between(ends, share(line, p));
   }
+}
+
+void check_that_it_can_move(const Fluid& fluid) {
+  if (fluid.setup.sweeps != Sweeps::alternating)
+    throw std::invalid_argument("a grid that moves is remapped in alternating orders of the sweeps");
+  if (fluid.setup.sleeping_threshold > 0)
+    throw std::invalid_argument("nothing sleeps on a grid that moves: fluid passes through every cell");
 }
 
 /// Throws FluidError unless cells along an axis outlive the shift of their planes.
@@ -169,12 +179,44 @@ GridMotion::GridMotion(const Grid& grid)
 }
 
 void prescribe_motion(Fluid& fluid, const std::array<EndMotion, 3>& motion) {
-  if (fluid.setup.sweeps != Sweeps::alternating)
-    throw std::invalid_argument("a grid that moves is remapped in alternating orders of the sweeps");
-  if (fluid.setup.sleeping_threshold > 0)
-    throw std::invalid_argument("nothing sleeps on a grid that moves: fluid passes through every cell");
+  check_that_it_can_move(fluid);
   fluid.motion.prescribed = motion;
   set_speeds(fluid.motion, fluid.time);
+}
+
+void let_grid_follow(Fluid& fluid) {
+  check_that_it_can_move(fluid);
+  if (fluid.setup.boundary[4] == Boundary::wall || fluid.setup.boundary[5] == Boundary::wall)
+    throw std::invalid_argument("a grid that follows a body is open at its ends along z: walls would be pistons");
+  fluid.motion.follows = true;
+}
+
+double follow_vehicle(Fluid& fluid) {
+  double area = 0, moved = 0;
+  for (const WallPiece& wall : fluid.after.walls) {
+    const double own = std::hypot(wall.area[0][0], wall.area[0][1], wall.area[0][2]);
+    area += own;
+    moved += own * wall.velocity[0][2];
+  }
+  std::vector<double>& speed = fluid.motion.speed[2];
+  if (area > 0) std::fill(speed.begin() + 1, speed.end() - 1, moved / area);
+  return speed[1];
+}
+
+void follow_to(Fluid& fluid, double displacement) {
+  fluid.motion.follow_to = displacement;
+}
+
+double volume_by_planes(const Fluid& fluid, const CutGeometry& before, const CutGeometry& after, std::ptrdiff_t cell) {
+  int i, j, k;
+  fluid.grid.position(cell, i, j, k);
+  double volume = 0;
+  for (int end = 0; end < 2; ++end) {
+    const std::ptrdiff_t face = cell + end * fluid.grid.sz;
+    const double open = 0.5 * (before.open[2][face] + after.open[2][face]), shift = fluid.motion.shift[2][k + end];
+    volume += (end == 0 ? -1.0 : 1.0) * shift * open * fluid.grid.dx[i] * fluid.grid.dy[j];
+  }
+  return volume;
 }
 
 void begin_grid_motion(Fluid& fluid, double dt) {
@@ -184,7 +226,10 @@ void begin_grid_motion(Fluid& fluid, double dt) {
   if (motion.first_ambient.empty()) motion.first_ambient = fluid.ambient;
   for (int axis = 0; axis < 3; ++axis) {
     const std::vector<double>& line = motion.first_line[axis];
-    const std::array<double, 2> next = motion.prescribed[axis].at(fluid.time + dt), now = motion.displaced[axis];
+    const bool following = motion.follows && axis == 2;
+    const std::array<double, 2> now = motion.displaced[axis],
+                                next = following ? std::array{motion.follow_to, motion.follow_to}
+                                                 : motion.prescribed[axis].at(fluid.time + dt);
     const std::array<double, 2> way{next[0] - now[0], next[1] - now[1]};
     const double factor = 1.0 + (next[1] - next[0]) / (line.back() - line.front());
     motion.next_displaced[axis] = next;
@@ -249,7 +294,9 @@ void subtract_plane_motion(Fluid& fluid, double dt) {
       double* q = rate(2);
       const std::vector<double>& dx = width_in_sweep(fluid, 2, 0);
       const double across = fluid.motion.shift[2][k] * width_in_sweep(fluid, 2, 1)[j] * over_dt;
-      for (int i = 1; i <= grid.nx; ++i) q[i] = shut(2, k, grid.nz) ? 0.0 : q[i] - dx[i] * across;
+      const double *open = fluid.before.open[2].data() + row, *opens = fluid.after.open[2].data() + row;
+      for (int i = 1; i <= grid.nx; ++i)
+        q[i] = shut(2, k, grid.nz) ? 0.0 : q[i] - 0.5 * (open[i] + opens[i]) * dx[i] * across;
     }
   });
 }
@@ -259,8 +306,10 @@ void end_grid_motion(Fluid& fluid) {
   if (!motion.active()) return;
   place_planes(fluid);
   const bool climbed = motion.displaced[2] != motion.next_displaced[2];
+  if (motion.follows) fluid.far_field.centre[2] += motion.next_displaced[2][0] - motion.displaced[2][0];
   motion.displaced = motion.next_displaced;
   set_speeds(motion, fluid.time);
+  if (motion.follows) follow_vehicle(fluid);
   if (climbed) move_ambient(fluid);
 }
 

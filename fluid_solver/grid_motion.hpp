@@ -6,6 +6,7 @@
 
 namespace polynya::fluid {
 
+struct CutGeometry;
 struct Fluid;
 
 /// Fluid beyond a non-reflecting boundary, by layer of the grid: what flows in, and the pressure that holds it.
@@ -29,6 +30,7 @@ struct EndMotion {
 /// the planes of the step's end. Entries by plane are by padded index, that of the face or node above it; 0 at rest.
 struct GridMotion {
   std::array<EndMotion, 3> prescribed;
+  bool follows = false;  ///< instead, all planes across z go with the vehicle: by follow_to
 
   // State: with the time it says where the planes are.
   std::array<std::vector<double>, 3> first_line;   ///< planes that displacements count from, m
@@ -39,18 +41,33 @@ struct GridMotion {
   // Of the step; `speed` between steps: of the next one.
   std::array<std::array<double, 2>, 3> next_displaced;  ///< ends at its end, m
   std::array<std::vector<double>, 3> shift, speed;      ///< of planes, m and m/s
+  double follow_to = 0;                                 ///< m, where the planes across z shall be displaced to
   std::array<std::vector<double>, 3> next_width;        ///< like Grid::dx, at its end, m
 
-  POLYNYA_STATE_WITHOUT((prescribed), prescribed, first_line, first_width, displaced, first_ambient, next_displaced,
-                        shift, speed, next_width)
+  POLYNYA_STATE_WITHOUT((prescribed, follows), prescribed, follows, first_line, first_width, displaced, first_ambient,
+                        next_displaced, shift, speed, follow_to, next_width)
 
   explicit GridMotion(const Grid& grid);
-  bool active() const { return prescribed[0].moves() || prescribed[1].moves() || prescribed[2].moves(); }
+  bool active() const { return follows || prescribed[0].moves() || prescribed[1].moves() || prescribed[2].moves(); }
 };
 
 /// Sets how the grid moves from now on; `speed` is ready for stable_step. Throws std::invalid_argument unless sweeps
 /// alternate.
 void prescribe_motion(Fluid& fluid, const std::array<EndMotion, 3>& motion);
+
+/// Lets the planes across z follow the vehicle: each step takes them where follow_to says. Throws std::invalid_argument
+/// unless sweeps alternate, nothing sleeps and the ends along z are open: walls would be pistons.
+void let_grid_follow(Fluid& fluid);
+/// Takes the mean speed of the vehicle's wall along z, weighted with area, for the planes' in the next step; the last
+/// one where it has no wall in the grid. Returns it, m/s.
+double follow_vehicle(Fluid& fluid);
+/// Displaces the planes across z, and with them the centre of the far field, to here (m, from where they were at first)
+/// in the next step.
+void follow_to(Fluid& fluid, double displacement);
+
+/// Free volume that a cell gains between its lower and upper planes because these move, m^3: what of the change of its
+/// free volume in a step is neither flow nor motion of walls. Faces are open as in the mean of `before` and `after`.
+double volume_by_planes(const Fluid& fluid, const CutGeometry& before, const CutGeometry& after, std::ptrdiff_t cell);
 
 /// The phases of a step that know of the motion; nothing happens on a grid at rest. Throws FluidError where a plane
 /// moves by more than half of a cell or a direction shrinks to nothing.

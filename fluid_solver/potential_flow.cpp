@@ -17,7 +17,7 @@ constexpr int most_iterations = 20000;
 /// A member of a group that is at least so full keeps its own impulse: the step's prediction also holds the members of
 /// a group to the walls' motion one by one, and a start that ignores it would begin with a jolt.
 constexpr double own_fill = 1e-4;
-constexpr double tolerance = 2e-5;  ///< of the norm of the walls' rates of volume
+constexpr double tolerance = 2e-5;  ///< of the norm of the walls' rates of volume, or of what has to be cleared
 
 class Projection {
  public:
@@ -32,7 +32,8 @@ class Projection {
     Field residual(size, 0.0), impulse(size, 0.0), direction(size, 0.0), image(size, 0.0);
     initial_rates(residual);
     auto [rho, square] = norms(residual);
-    const double goal = tolerance * tolerance * std::max(wall_rates(), 1e-300);
+    // A body at rest in a stream has walls that sweep nothing: there what the stream brings is the measure.
+    const double goal = tolerance * tolerance * std::max(wall_rates(), square);
     double turn = 0;
     int iteration = 0;
     for (; iteration < most_iterations && rho > 0 && square > goal; ++iteration) {

@@ -28,6 +28,8 @@ void take_overlap(Fluid& fluid, const Overlap& overlap, Step& now) {
   {
     const auto lap = fluid.watch.lap("volume_correction");
     now.walls = join_walls(fluid.before, fluid.after);
+    if (fluid.motion.follows)
+      for (StepWall& wall : now.walls) wall.by_planes = volume_by_planes(fluid, fluid.before, fluid.after, wall.cell);
     fluid.account.released_room += release_room(fluid.grid, fluid.before, fluid.after, now.walls, now.dt);
     now.correction = correct_volumes(fluid.grid, fluid.before, fluid.after, now.walls, now.dt, fluid.label);
     fluid.correction_iterations = now.correction.iterations;

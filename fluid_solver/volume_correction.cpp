@@ -184,7 +184,7 @@ class Network {
 }  // namespace
 
 double unexplained_change(const StepWall& wall, const CutGeometry& before, const CutGeometry& after, double dt) {
-  double change = after.volume[wall.cell] - before.volume[wall.cell];
+  double change = after.volume[wall.cell] - before.volume[wall.cell] - wall.by_planes;
   for (const double sweep : wall.sweep) change -= dt * sweep;
   return change;
 }

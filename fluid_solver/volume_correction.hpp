@@ -12,6 +12,7 @@ struct StepWall {
   std::ptrdiff_t cell = 0;
   std::array<std::array<double, 3>, 2> area{}, velocity{};
   std::array<double, 2> sweep{};  ///< m^3/s
+  double by_planes = 0;           ///< m^3 that the motion of the grid's planes gives to the cell in the step
 };
 
 /// Mean areas times wall velocity miss the true change of a cell's free volume, by much where a wall crosses a face of
@@ -35,8 +36,8 @@ struct VolumeCorrection {
 VolumeCorrection correct_volumes(const Grid& grid, const CutGeometry& before, const CutGeometry& after,
                                  const std::vector<StepWall>& walls, double dt, std::vector<std::int32_t>& label);
 
-/// Change of free volume of a cell that the walls' motion does not explain: the miss of the mean areas, particles that
-/// came or went, ice that turned into particles, m^3.
+/// Change of free volume of a cell that the motion of walls and of the grid's planes does not explain: the miss of the
+/// mean areas, particles that came or went, ice that turned into particles, m^3.
 double unexplained_change(const StepWall& wall, const CutGeometry& before, const CutGeometry& after, double dt);
 
 }  // namespace polynya::fluid

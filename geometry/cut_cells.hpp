@@ -96,12 +96,14 @@ using ClipTriangles = void (*)(const std::array<LineLocator, 3>& lines, std::spa
 /// wetted.
 class Cutter {
  public:
-  explicit Cutter(GridLines grid);
+  explicit Cutter(const GridLines& grid);
   ~Cutter();
   Cutter(Cutter&&) noexcept;
   Cutter& operator=(Cutter&&) noexcept;
 
   const GridLines& grid() const;
+  /// Cuts this grid from now on. Throws GeometryError as at construction.
+  void set_lines(const GridLines& grid);
 
   /// Clips by another method from now on than by doubles (exact_cut.hpp has one).
   void set_method(ClipTriangles method);

@@ -101,10 +101,8 @@ void resize(CutFaces& out, std::size_t faces) {
 
 }  // namespace
 
-Cutter::Cutter(GridLines grid) : workspace_(std::make_unique<Workspace>()) {
-  check_grid(grid);
-  for (std::size_t axis = 0; axis < 3; ++axis) workspace_->locators[axis] = LineLocator(grid.lines[axis]);
-  workspace_->grid = std::move(grid);
+Cutter::Cutter(const GridLines& grid) : workspace_(std::make_unique<Workspace>()) {
+  set_lines(grid);
 }
 Cutter::~Cutter() = default;
 Cutter::Cutter(Cutter&&) noexcept = default;
@@ -112,6 +110,12 @@ Cutter& Cutter::operator=(Cutter&&) noexcept = default;
 
 const GridLines& Cutter::grid() const {
   return workspace_->grid;
+}
+
+void Cutter::set_lines(const GridLines& grid) {
+  check_grid(grid);
+  for (std::size_t axis = 0; axis < 3; ++axis) workspace_->locators[axis] = LineLocator(grid.lines[axis]);
+  workspace_->grid = grid;
 }
 
 void Cutter::set_method(ClipTriangles method) {

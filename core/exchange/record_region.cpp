@@ -63,6 +63,7 @@ std::array<double, 3> RecordRegion::place(std::int64_t index, int face_axis) con
     const std::size_t next = d == face_axis ? line : line + 1;
     if (next < lines_[d].size()) centre[d] = 0.5 * (lines_[d][line] + lines_[d][next]);
   }
+  centre[2] += shift_;
   return centre;
 }
 
@@ -116,6 +117,7 @@ Message RecordRegion::restrict(const Message& message) {
       const auto line = message.view<double>(line_names[d]);
       lines_[d].assign(line.begin(), line.end());
     }
+  shift_ = message.header.value("grid_shift", shift_);
   if (message.has("positions")) note_vertices(message);
   if (message.has("cell")) note_cells(message);
   if (message.has("load.vertices")) {

@@ -30,7 +30,8 @@ class RecordRegion {
   const Mask* mask_for(const std::string& array) const;
 
   std::array<double, 6> box_;
-  std::array<std::vector<double>, 3> lines_;  ///< m, of the fluid's grid
+  std::array<std::vector<double>, 3> lines_;  ///< m, of the fluid's grid as `ready` told it
+  double shift_ = 0;                          ///< m, of its planes across z since then
   Mask vertices_, triangles_, loads_, cells_, walls_, walls_before_;
   std::array<Mask, 3> faces_;
 };

@@ -121,7 +121,8 @@ Decision symmetry(const Scene& scene) {
 Decision sleeping(const Scene& scene) {
   if (!scene.fluid) return impossible("the scene has no fluid");
   if (scene.fluid->sweeps == "all_orders") return impossible("the mean of all orders of sweeps goes over every cell");
-  if (scene.fluid->grid_motion) return impossible("fluid passes through every cell of a grid that moves");
+  if (scene.fluid->grid_motion || scene.fluid->grid_follows == "vehicle")
+    return impossible("fluid passes through every cell of a grid that moves");
   char bound[80];
   std::snprintf(bound, sizeof bound, "disturbances below %g of sound speed and bulk modulus are dropped",
                 scene.fluid->sleeping_threshold);

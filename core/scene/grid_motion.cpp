@@ -59,6 +59,22 @@ bool rests(const AxisMotion& axis) {
 
 }  // namespace
 
+/// A grid that follows the vehicle.
+void check_following(const Values& values, const Scene& scene) {
+  if (scene.fluid->grid_follows != "vehicle") return;
+  if (!scene.vehicle || scene.ice)
+    values.fail("fluid.grid_follows",
+                scene.ice ? "the grid follows no vehicle beside [ice] in this version; must be none, or leave out [ice]"
+                          : "there is no [vehicle] to follow; must be none");
+  if (scene.fluid->outer_boundary != "non_reflecting")
+    values.fail("fluid.outer_boundary",
+                "walls of a grid that follows the vehicle would push the water as pistons do; "
+                "must be non_reflecting, or fluid.grid_follows none");
+  if (scene.fluid->sweeps == "all_orders")
+    values.fail("fluid.sweeps",
+                "a grid that moves is remapped in alternating orders; must be alternating, or fluid.grid_follows none");
+}
+
 void read_grid_motion(const Values& values, Scene& scene) {
   GridMotion motion;
   for (const auto& [name, axis] : {std::pair{"x", &motion.x}, {"y", &motion.y}, {"z", &motion.z}}) {
@@ -67,8 +83,8 @@ void read_grid_motion(const Values& values, Scene& scene) {
     if (rests(*axis)) continue;
     if (scene.vehicle || scene.ice || scene.fluid->bodies)
       values.fail(path + "speed",
-                  "the grid cannot move around solids in this version; allowed with [tube], or with [water] and [air] "
-                  "around no solid");
+                  "the grid moves by prescription only with [tube], or with [water] and [air] around no solid; with a "
+                  "vehicle fluid.grid_follows lets it go along");
     if (scene.fluid->sweeps == "all_orders")
       values.fail(
           "fluid.sweeps",
@@ -80,6 +96,7 @@ void read_grid_motion(const Values& values, Scene& scene) {
       values.fail(path + "lower_speed",
                   "the lower end is a plane of symmetry and must stay; set 0, or symmetry = \"full\"");
   }
+  check_following(values, scene);
   if (!rests(motion.x) || !rests(motion.y) || !rests(motion.z)) scene.fluid->grid_motion = motion;
 }
 

@@ -186,6 +186,7 @@ void read_parts(const Values& values, Scene& scene) {
   read_resolution(values, scene);
   if (values.has("tube")) {
     scene.fluid.emplace().tube = read_tube(values);
+    scene.fluid->grid_follows = "none";
     scene.fluid->shock_viscosity = values.text("fluid.shock_viscosity");
     scene.fluid->sleeping_threshold = values.number("fluid.sleeping_threshold");
   }

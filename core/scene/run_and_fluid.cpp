@@ -132,7 +132,7 @@ void read_dam(const Values& values, Scene& scene) {
   f.atmospheric_pressure = values.number("air.pressure");
   const auto& water = scene.material(f.water);
   f.vapour_pressure = water.has("vapour_pressure") ? water.value("vapour_pressure") : 0;
-  f.start = "impulsive", f.outer_boundary = "wall";
+  f.start = "impulsive", f.outer_boundary = "wall", f.grid_follows = "none";
   f.shock_viscosity = values.text("fluid.shock_viscosity"), f.sweeps = values.text("fluid.sweeps");
   f.sleeping_threshold = values.number("fluid.sleeping_threshold");
   if (f.dam->length >= f.length) values.fail("dam.length", "must be below dam.tank_length");
@@ -167,6 +167,7 @@ void read_fluid(const Values& values, Scene& scene) {
   f.vapour_pressure = water.has("vapour_pressure") ? water.value("vapour_pressure") : 0;
   f.start = values.text("fluid.start"), f.outer_boundary = values.text("fluid.outer_boundary");
   if (scene.ice) choose_ice_start(values, scene);
+  f.grid_follows = values.text("fluid.grid_follows");
   f.shock_viscosity = values.text("fluid.shock_viscosity"), f.sweeps = values.text("fluid.sweeps");
   f.sleeping_threshold = values.number("fluid.sleeping_threshold");
   f.bottom = (scene.ice ? scene.ice->lower_face : f.waterline) - values.number("water.depth");
@@ -177,7 +178,8 @@ void read_fluid(const Values& values, Scene& scene) {
                 "0 makes the ice the floor of the water: it needs [ice] with clamped sides or ends, and no [vehicle]");
   if (v) {
     f.bottom = std::min(f.bottom, v->nose_position - lowest_below_nose(*v) - cells_below_tail * cell);
-    f.top = std::max(f.top, v->nose_position + v->speed * scene.run.end_time + cells_above_nose * cell);
+    const double way = f.grid_follows == "vehicle" ? 0.0 : v->speed * scene.run.end_time;
+    f.top = std::max(f.top, v->nose_position + way + cells_above_nose * cell);
   }
   if (scene.ice && (f.length < scene.ice->length * (1 - 1e-12) || f.width < scene.ice->width * (1 - 1e-12)))
     values.fail(f.length < scene.ice->length ? "fluid.length" : "fluid.width", "must not be below that of the ice");

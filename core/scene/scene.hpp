@@ -164,6 +164,7 @@ struct Fluid {
   std::string shock_viscosity;      ///< "limited" or "reference"
   std::string sweeps;               ///< "alternating" or "all_orders"
   std::optional<GridMotion> grid_motion;
+  std::string grid_follows;       ///< "none" or "vehicle": whose mean speed along z the grid takes
   double sleeping_threshold = 0;  ///< relative disturbance below which cells sleep; 0: none does
   std::optional<Dam> dam;         ///< then the fluid is a tank with walls, x from 0 to length, z from 0 to top
   std::optional<std::map<std::string, Body>> bodies;  ///< by name; absent: none

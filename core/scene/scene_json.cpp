@@ -121,6 +121,7 @@ void members(Part& p, Visit&& visit) {
   visit("atmospheric_pressure", p.atmospheric_pressure), visit("vapour_pressure", p.vapour_pressure);
   visit("start", p.start), visit("outer_boundary", p.outer_boundary);
   visit("shock_viscosity", p.shock_viscosity), visit("sweeps", p.sweeps), visit("grid_motion", p.grid_motion);
+  visit("grid_follows", p.grid_follows);
   visit("sleeping_threshold", p.sleeping_threshold), visit("dam", p.dam), visit("tube", p.tube);
   visit("bodies", p.bodies);
 }

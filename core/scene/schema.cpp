@@ -189,6 +189,9 @@ std::vector<KeyRule> fluid_rules() {
       choice("fluid.sweeps", {"alternating", "all_orders"}, "alternating",
              "orders of the axes in the remap: in turns, or in every step the mean of all six, which is the same for "
              "all axes and dearer"),
+      choice("fluid.grid_follows", {"none", "vehicle"}, "none",
+             "whether the grid goes along z with the mean speed of the vehicle's wall; with [vehicle] in water without "
+             "[ice], ends along z open"),
       positive("fluid.sleeping_threshold", dim::none, "1e-7",
                "disturbance below which bricks of 8 x 8 x 8 cells sleep: speed over sound speed, change of pressure in "
                "half a step over the bulk modulus",

@@ -83,6 +83,10 @@ class Resume(Comparison):
         self.kill_and_resume("cases/water_exit", "run.end_time='6 us'", "run.frame_interval='2 us'",
                              "checkpoint.interval='2 us'")
 
+    def test_a_grid_that_follows_the_vehicle_goes_on_with_the_same_bits(self):
+        self.kill_and_resume("cases/vehicle_in_water", "fluid.grid_follows='vehicle'", "run.end_time='30 us'",
+                             "run.frame_interval='10 us'", "checkpoint.interval='10 us'")
+
     def test_ice_alone_goes_on_with_the_same_bits(self):
         self.kill_and_resume("cases/beam_bending", "checkpoint.interval='25 us'", "run.end_time='200 us'",
                              "run.frame_interval='100 us'")

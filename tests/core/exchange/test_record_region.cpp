@@ -81,6 +81,18 @@ TEST(RecordRegion, KeepsCellsFacesAndTheirPressuresInsideTheBox) {
   EXPECT_EQ(values<double>(kept, "pressure.previous_values"), (Numbers{3, 5}));
 }
 
+TEST(RecordRegion, FollowsAGridThatMoves) {
+  RecordRegion region({0, 0, 0, 2, 2, 1});  // of a grid of 2 x 2 x 2 cells of 1 m
+  Message ready("ready");
+  for (const char* line : {"grid.x", "grid.y", "grid.z"}) ready.add<double>(line, {3}, Numbers{0, 1, 2});
+  ready.header["grid_shift"] = 0.0;
+  region.restrict(ready);
+  EXPECT_EQ(values<std::int64_t>(region.restrict(overlap({0, 4, 5, 7})), "cell"), (Integers{0}));
+  Message span = overlap({0, 4, 5, 7});
+  span.header["grid_shift"] = -1.2;  // the upper layer of cells has come to z = 0.3 m
+  EXPECT_EQ(values<std::int64_t>(region.restrict(span), "cell"), (Integers{4, 5, 7}));
+}
+
 TEST(RecordRegion, ARecordOfARegionIsRefusedForReplay) {
   const SocketFolder folder;
   Recorder::Options options;

@@ -22,11 +22,41 @@ TEST(GridMotion, EndsTakeTheSpeedOfAllPlanesUnlessTheyHaveTheirOwn) {
   EXPECT_EQ(to_json(from_json(to_json(scene))), to_json(scene));
 }
 
+TEST(GridMotion, FollowsAVehicleInWater) {
+  const auto in_water = [](const std::string& whom) {
+    return resolve(case_folder("vehicle_in_water"),
+                   {.level = {}, .settings = {"fluid.grid_follows=\"" + whom + "\"", "run.end_time=\"2 ms\""}});
+  };
+  const Scene at_rest = in_water("none"), follows = in_water("vehicle");
+  EXPECT_EQ(follows.fluid->grid_follows, "vehicle");
+  EXPECT_FALSE(follows.effect("sleeping"));
+  // No room is needed for the way that the grid goes along.
+  const double way = follows.vehicle->speed * follows.run.end_time;
+  EXPECT_GT(way, 0.05);
+  EXPECT_LT(follows.fluid->top, at_rest.fluid->top + 1e-12);
+  EXPECT_GE(at_rest.fluid->top, at_rest.vehicle->nose_position + way);
+  EXPECT_EQ(to_json(from_json(to_json(follows))), to_json(follows));
+}
+
+TEST(GridMotion, WhatCannotBeFollowedIsOneSentence) {
+  const auto refused = [](const char* scene, std::vector<std::string> settings, const std::string& words) {
+    settings.push_back("fluid.grid_follows=\"vehicle\"");
+    const std::string message = message_of(case_folder(scene), {.level = {}, .settings = settings});
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  };
+  refused("water_exit", {}, "the grid follows no vehicle beside [ice]");
+  refused("sphere_in_water", {}, "there is no [vehicle] to follow");
+  refused("vehicle_in_water", {"fluid.outer_boundary=\"wall\""}, "as pistons do");
+  refused("vehicle_in_water", {"fluid.sweeps=\"all_orders\""}, "alternating orders");
+}
+
 TEST(GridMotion, WhatCannotMoveIsOneSentence) {
   const auto refused = [](const std::string& message, const std::string& words) {
     EXPECT_NE(message.find(words), std::string::npos) << message;
   };
-  refused(message_of_settings({"fluid.grid_motion.z.speed=40"}), "cannot move around solids in this version");
+  refused(message_of_settings({"fluid.grid_motion.z.speed=40"}),
+          "only with [tube], or with [water] and [air] around no solid");
   const auto of_tube = [](const std::string& setting) {
     return message_of(case_folder("shock_tube"), {.level = {}, .settings = {setting}});
   };
