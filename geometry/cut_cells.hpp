@@ -69,10 +69,11 @@ struct CutCells {
   std::int64_t overlapping_cells = 0;  ///< cells whose solid volume exceeded the cell (bodies overlap) and was clamped
   std::int64_t corrected_faces = 0;    ///< faces whose fraction left [0, 1] (overlap, folded surface) and was clamped
   std::int64_t loose_edges = 0;        ///< open edges of the surfaces away from the walls of the grid: should be 0
+  std::int64_t kept_triangles = 0;     ///< that lay where they lay at the cut before: not clipped again
   double squeezed_volume = 0;          ///< m^3 of debris that found no room
 
   POLYNYA_STATE(bodies, cell, solid_volume, debris_volume, body_volume, wall_area, wall_velocity, wall_sweep, walled,
-                faces, pieces, uncertain, shared_cells, overlapping_cells, corrected_faces, loose_edges,
+                faces, pieces, uncertain, shared_cells, overlapping_cells, corrected_faces, loose_edges, kept_triangles,
                 squeezed_volume)
 };
 
@@ -88,7 +89,8 @@ using ClipTriangles = void (*)(const std::array<LineLocator, 3>& lines, std::spa
 /// Cuts a grid by bodies, column by column: a point is solid when more surface leaves the body than enters it on the
 /// upward ray, so volumes, areas and fractions are sums of exact integrals over clipped triangles, and no point is ever
 /// classified. Exact up to rounding, of which every volume has a bound; deterministic for any number of threads;
-/// buffers are kept between cuts.
+/// buffers are kept between cuts. A chunk of triangles that lie
+/// where they lay is not clipped again.
 ///
 /// Coincidence: vertices within 1e-12 of a cell from a grid plane count as lying on it, and then on the side the
 /// surface faces, so the wall of a grid-aligned body lies in the fluid cell beside it and the face between them is

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "core/compute/parallel.hpp"
@@ -116,17 +117,21 @@ void Cutter::set_lines(const GridLines& grid) {
   check_grid(grid);
   for (std::size_t axis = 0; axis < 3; ++axis) workspace_->locators[axis] = LineLocator(grid.lines[axis]);
   workspace_->grid = grid;
+  workspace_->complete = false;
 }
 
 void Cutter::set_method(ClipTriangles method) {
   workspace_->method = method;
+  workspace_->complete = false;
 }
 
 void Cutter::cut(std::span<const BodySurface> bodies, CutCells& out) {
   Workspace& work = *workspace_;
   out.bodies = bodies.size();
-  out.shared_cells = out.overlapping_cells = out.corrected_faces = out.loose_edges = 0;
+  out.shared_cells = out.overlapping_cells = out.corrected_faces = out.loose_edges = out.kept_triangles = 0;
   out.squeezed_volume = 0;
+  if (!std::exchange(work.complete, false))
+    for (PlacedSurface& surface : work.surfaces) surface.forget();
   work.surfaces.resize(bodies.size());
   work.reach.resize(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -134,7 +139,8 @@ void Cutter::cut(std::span<const BodySurface> bodies, CutCells& out) {
     out.loose_edges += work.surfaces[b].loose_edges();
     work.reach[b] = work.surfaces[b].reach(work.locators);
   }
-  work.clip(bodies);
+  out.kept_triangles = work.clip(bodies);
+  work.complete = true;
   work.sum(bodies);
   work.collect(out);
   work.collect_uncertain(out);
@@ -142,19 +148,24 @@ void Cutter::cut(std::span<const BodySurface> bodies, CutCells& out) {
   correct_excess(work.grid, work.excesses, out);
 }
 
-void Cutter::Workspace::clip(std::span<const BodySurface> bodies) {
+std::int64_t Cutter::Workspace::clip(std::span<const BodySurface> bodies) {
   clipped.resize(bodies.size());
   clips.clear();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     clipped[b].resize((bodies[b].triangles.size() / 3 + triangle_chunk - 1) / triangle_chunk);
     for (std::size_t c = 0; c < clipped[b].size(); ++c) clips.push_back({b, c});
   }
+  std::vector<std::int64_t> kept(clips.size(), 0);
   compute::for_uneven_chunks(clips.size(), 1, [&](std::size_t at, std::size_t) {
     const auto [b, c] = clips[at];
-    const std::size_t triangles = bodies[b].triangles.size() / 3, begin = c * triangle_chunk;
-    clipped[b][c].clip(method, locators, surfaces[b].corners(), bodies[b].triangles, begin,
-                       std::min(triangles, begin + triangle_chunk));
+    const std::size_t begin = c * triangle_chunk,
+                      end = std::min(bodies[b].triangles.size() / 3, begin + triangle_chunk);
+    if (surfaces[b].unmoved(begin, end))
+      kept[at] = static_cast<std::int64_t>(end - begin);
+    else
+      clipped[b][c].clip(method, locators, surfaces[b].corners(), bodies[b].triangles, begin, end);
   });
+  return std::accumulate(kept.begin(), kept.end(), std::int64_t{0});
 }
 
 void Cutter::Workspace::sum(std::span<const BodySurface> bodies) {

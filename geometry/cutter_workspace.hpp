@@ -19,10 +19,11 @@ struct Cutter::Workspace {
   std::vector<FaceExcess> excesses;
   std::vector<std::size_t> piece_start;  ///< [clips + 1]
   DebrisDeposit debris;
+  bool complete = false;  ///< `clipped` belongs to `surfaces`: no error came between
 
   /// Columns of cells, and one more along x and y for the last planes.
   std::size_t columns() const { return static_cast<std::size_t>((grid.cells(0) + 1) * (grid.cells(1) + 1)); }
-  void clip(std::span<const BodySurface> bodies);
+  std::int64_t clip(std::span<const BodySurface> bodies);  ///< returns how many triangles were kept
   void sum(std::span<const BodySurface> bodies);
   void collect(CutCells& out);
   void collect_uncertain(CutCells& out) const;

@@ -88,11 +88,32 @@ std::vector<std::array<std::int32_t, 2>> open_edges(std::span<const std::int32_t
 }
 
 void PlacedSurface::place(const BodySurface& surface, const std::array<LineLocator, 3>& lines) {
-  update_topology(surface);
+  const bool comparable = !update_topology(surface) && known_;
+  known_ = false;
+  std::swap(before_, corners_);
   place_vertices(surface, lines);
   settle_coincidences(lines);
   attach_facing_sides(lines);
   attach_open_edges(lines);
+  if (comparable)
+    find_moved(before_);
+  else
+    moved_.assign(vertices_, 1);
+  known_ = true;
+}
+
+void PlacedSurface::find_moved(const std::vector<Corner>& before) {
+  moved_.resize(vertices_);
+  compute::for_chunks(vertices_, vertex_chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      moved_[v] = before[v].x != corners_[v].x || before[v].slab != corners_[v].slab;
+  });
+}
+
+bool PlacedSurface::unmoved(std::size_t begin, std::size_t end) const {
+  return std::none_of(triangles_.begin() + static_cast<std::ptrdiff_t>(3 * begin),
+                      triangles_.begin() + static_cast<std::ptrdiff_t>(3 * end),
+                      [&](std::int32_t vertex) { return moved_[static_cast<std::size_t>(vertex)] != 0; });
 }
 
 double PlacedSurface::reach(const std::array<LineLocator, 3>& lines) const {
@@ -104,11 +125,11 @@ double PlacedSurface::reach(const std::array<LineLocator, 3>& lines) const {
   return most;
 }
 
-void PlacedSurface::update_topology(const BodySurface& surface) {
+bool PlacedSurface::update_topology(const BodySurface& surface) {
   if (surface.positions.size() % 3 != 0 || surface.velocities.size() != surface.positions.size())
     throw GeometryError("a surface needs three coordinates and three velocities per vertex");
   const std::size_t vertices = surface.positions.size() / 3;
-  if (vertices == vertices_ && std::ranges::equal(triangles_, surface.triangles)) return;
+  if (vertices == vertices_ && std::ranges::equal(triangles_, surface.triangles)) return false;
   if (surface.triangles.size() % 3 != 0) throw GeometryError("a surface needs three vertices per triangle");
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
     if (surface.triangles[t] < 0 || static_cast<std::size_t>(surface.triangles[t]) >= vertices)
@@ -117,6 +138,7 @@ void PlacedSurface::update_topology(const BodySurface& surface) {
   triangles_.assign(surface.triangles.begin(), surface.triangles.end());
   vertices_ = vertices;
   open_edges_ = open_edges(triangles_, vertices_);
+  return true;
 }
 
 void PlacedSurface::place_vertices(const BodySurface& surface, const std::array<LineLocator, 3>& lines) {

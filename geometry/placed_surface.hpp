@@ -19,6 +19,10 @@ class PlacedSurface {
   void place(const BodySurface& surface, const std::array<LineLocator, 3>& lines);
 
   const std::vector<Corner>& corners() const { return corners_; }
+  /// True if the triangles [begin, end) lie where they lay when the surface was placed before, among the same planes.
+  bool unmoved(std::size_t begin, std::size_t end) const;
+  /// Other planes or another way to cut follow: nothing counts as unmoved at the next place.
+  void forget() { known_ = false; }
   std::int64_t loose_edges() const { return loose_edges_; }
   /// Largest coordinate of the vertices and the grid, m: what rounding is measured with.
   double reach(const std::array<LineLocator, 3>& lines) const;
@@ -27,7 +31,8 @@ class PlacedSurface {
   struct Coincidence {
     std::int32_t vertex, axis, plane;
   };
-  void update_topology(const BodySurface& surface);
+  bool update_topology(const BodySurface& surface);  ///< true if it is another one
+  void find_moved(const std::vector<Corner>& before);
   void place_vertices(const BodySurface& surface, const std::array<LineLocator, 3>& lines);
   void settle_coincidences(const std::array<LineLocator, 3>& lines);
   void attach_facing_sides(const std::array<LineLocator, 3>& lines);
@@ -41,6 +46,9 @@ class PlacedSurface {
   std::vector<Coincidence> facing_;  ///< vertices of sides that rest on a wall; plane: 0 the first, 1 the last
   std::vector<std::array<double, 3>> normals_;
   std::int64_t loose_edges_ = 0;
+  std::vector<Corner> before_;       ///< scratch: corners of the place before
+  std::vector<std::uint8_t> moved_;  ///< [vertices], 1 if not where it was
+  bool known_ = false;               ///< corners_ are of a surface with these triangles among these planes
 };
 
 }  // namespace polynya::geometry

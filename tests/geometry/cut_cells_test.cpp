@@ -50,6 +50,62 @@ TEST(CutCells, SphereVolumeIsThatOfItsFacetsAndConvergesToTheBall) {
   }
 }
 
+TEST(CutCells, TrianglesThatLieWhereTheyLayAreNotClippedAgain) {
+  const GridLines grid{{shapes::lines(-1.3, 1.4, 17), shapes::lines(-1.2, 1.3, 19), shapes::lines(-1.5, 1.2, 21)}};
+  Shape ball = shapes::sphere(4), other = shapes::cylinder(24);
+  const auto expect_same = [](const CutCells& a, const CutCells& b) {
+    EXPECT_EQ(a.cell, b.cell);
+    EXPECT_EQ(a.solid_volume, b.solid_volume);
+    EXPECT_EQ(a.wall_area, b.wall_area);
+    EXPECT_EQ(a.wall_velocity, b.wall_velocity);
+    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_EQ(a.faces[axis].solid, b.faces[axis].solid);
+    ASSERT_EQ(a.pieces.size(), b.pieces.size());
+    for (std::size_t p = 0; p < a.pieces.size(); ++p) EXPECT_EQ(a.pieces[p].area, b.pieces[p].area);
+  };
+  Cutter cutter(grid);
+  const auto all = static_cast<std::int64_t>(ball.surface().triangles.size() / 3);
+  ASSERT_GT(all, 2048);
+  CutCells cut;
+  const auto cut_ball = [&] {
+    const std::array bodies{ball.surface()};
+    cutter.cut(bodies, cut);
+  };
+  cut_ball();
+  EXPECT_EQ(cut.kept_triangles, 0);
+  cut_ball();
+  EXPECT_EQ(cut.kept_triangles, all);
+  expect_same(cut, cut_once(grid, {ball}));
+  // Velocities are no matter of where the surface is.
+  for (double& v : ball.velocities) v += 1;
+  cut_ball();
+  EXPECT_EQ(cut.kept_triangles, all);
+  expect_same(cut, cut_once(grid, {ball}));
+  ball.positions[0] += 1e-3;
+  cut_ball();
+  EXPECT_LT(cut.kept_triangles, all);
+  EXPECT_GT(cut.kept_triangles, 0);
+  expect_same(cut, cut_once(grid, {ball}));
+  // Another body, other planes, an error in between.
+  const std::array two{other.surface(), ball.surface()};
+  cutter.cut(two, cut);
+  EXPECT_EQ(cut.kept_triangles, 0);
+  GridLines shifted = grid;
+  for (double& z : shifted.lines[2]) z += 0.01;
+  cut_ball();
+  cutter.set_lines(shifted);
+  cut_ball();
+  EXPECT_EQ(cut.kept_triangles, 0);
+  expect_same(cut, cut_once(shifted, {ball}));
+  const double right = ball.positions[4];
+  ball.positions[1] += 1e-3;
+  ball.positions[4] = std::nan("");
+  EXPECT_THROW(cut_ball(), GeometryError);
+  ball.positions[4] = right;
+  cut_ball();
+  EXPECT_EQ(cut.kept_triangles, 0);
+  expect_same(cut, cut_once(shifted, {ball}));
+}
+
 TEST(CutCells, VolumeAndAreasCloseForAnyPosition) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-0.2, 0.2);
