@@ -15,6 +15,7 @@ constexpr int longest_walk = 64;  // triangles that a held point may pass in a s
 // caught though rounding or its own widening puts it a little beside.
 constexpr double seam = 1e-6;
 constexpr double steepest_depth = 2;  // change of depth over motion, see faded_depth
+constexpr double farthest_slip = 2;   // change of slip over motion: the spring also turns with the force
 constexpr double rounding = 1e-14;    // of coordinates: what lies on a face counts as outside
 
 struct Corners {
@@ -107,21 +108,29 @@ Footing nearest_footing(const Body& surface, const SurfaceTopology& topology, co
   return best == at.triangle ? at : Footing{best, foot_on(surface, best, p)};
 }
 
-/// Stretch of the tangential spring across the direction of the force.
-void set_slip(const Body& surface, const PairState& state, const Footing& at, const Vector3& p, Touch& touch) {
+/// An anchor beside a triangle without width, as collapsing elements have, is carried far off by the smallest motion of
+/// its corners: what no motion of the contact can have brought is no slip, and no work of friction.
+void limit_slip(double farthest, Touch& touch) {
+  if (const double length = norm(touch.slip); length > farthest) touch.slip = (farthest / length) * touch.slip;
+}
+
+/// Stretch of the tangential spring across the direction of the force, of which motion can have brought `farthest`.
+void set_slip(const Body& surface, const PairState& state, const Footing& at, const Vector3& p, double farthest,
+              Touch& touch) {
   const auto anchored = static_cast<std::size_t>(state.anchor);
   const Vector3 stretch = p - point_on(corners_of(surface, anchored), state.anchor_weights);
   const Vector3 normal = face_normal(surface, anchored);
   touch.slip = tangential(stretch, touch.push);
   touch.turned = anchored != at.triangle && state.on_face && at.foot.feature == Feature::face &&
                  dot(normal, face_normal(surface, at.triangle)) < 1 - 1e-12;
-  if (!touch.turned) return;
+  if (!touch.turned) return limit_slip(farthest, touch);
   // From face to face the force turns at once, around an edge with the point. A spring set on a face that the point
   // has left is stretched along that face and turns with the force: seen along the new one, the depth times the angle
   // between them would count as slip although nothing moved.
   const Vector3 along = tangential(stretch, normal);
   touch.slip = tangential(along, touch.push);
   if (const double length = norm(touch.slip); length > 0) touch.slip = (norm(along) / length) * touch.slip;
+  limit_slip(farthest, touch);
 }
 
 std::uint64_t key_of(std::span<const std::int64_t> ids) {
@@ -227,7 +236,11 @@ bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTo
   touch.opposed_weights = at.foot.weights;
   touch.push = depth.push;
   touch.depth = std::max(0.0, depth.value);
-  if (state.anchor >= 0) set_slip(surface, state, at, p, touch);
+  if (state.anchor >= 0) {
+    const double fastest = std::max(relative_speed(points, point, surface, at.triangle),
+                                    relative_speed(points, point, surface, static_cast<std::size_t>(state.anchor)));
+    set_slip(surface, state, at, p, state.elastic_slip + farthest_slip * dt * fastest, touch);
+  }
   state.on_face = at.foot.feature == Feature::face;
   touch.state = &state;
   return true;

@@ -158,3 +158,42 @@ TEST(Friction, DissipatesOnlyWhereSomethingSlidesAlsoOverFacesThatTurn) {
   EXPECT_GT(lost, stored);
   EXPECT_NEAR(lost + stored, -work, 1e-3 * lost);
 }
+
+TEST(Friction, CountsNoSlipThatTheMotionOfANeedleCannotHaveBrought) {
+  // A point that has slid stops on a strip far narrower than its spring is long; then the strip widens by half. The
+  // spring's anchor lies some hundred widths beside it and goes a hundred times as far.
+  constexpr double width = 1e-4, step = 1e-6, depth = 0.05;
+  Mesh floor;
+  for (const double y : {-1.0, 0.0, width, 1.0})
+    for (const double x : {-1.0, 1.0}) floor.add_point({x, y, 0}, {}, 1e15);
+  for (std::int32_t n = 0; n < 3; ++n)
+    floor.triangles.insert(floor.triangles.end(), {2 * n, 2 * n + 1, 2 * n + 3, 2 * n, 2 * n + 3, 2 * n + 2});
+  Mesh point = point_at({0.2, -0.1, 1e-3}, {});
+  PenaltyContact contact({.friction = mu, .stiffness_factor = factor, .depth_limit = 0.1, .skin = 0.01});
+  contact.set_topology(floor.body(), point.body());
+  contact.evaluate(floor.body(), point.body(), dt);
+  const auto go_to = [&](const Vector3& x) -> const ContactForces& {
+    for (std::size_t d = 0; d < 3; ++d) {
+      point.velocities[d] = (x[d] - point.positions[d]) / dt;
+      point.positions[d] = x[d];
+    }
+    return contact.evaluate(floor.body(), point.body(), dt);
+  };
+  double slid = 0;
+  for (int n = 1; n <= 1000; ++n) {
+    const double part = n / 1000.0;
+    slid +=
+        go_to({0.2, -0.1 + (0.1 + 0.5 * width) * part, 1e-3 - (1e-3 + depth) * std::min(1.0, 5 * part)}).friction_loss;
+  }
+  EXPECT_GT(slid, 0);
+  const double normal_force = go_to({0.2, 0.5 * width, -depth}).secondary[2];
+  EXPECT_GT(normal_force, 0);
+  const std::size_t corner = 3 * 5 + 1;  // y of (1, width, 0)
+  double lost = 0;
+  floor.velocities[corner] = step / dt;
+  for (int n = 0; n < 50; ++n) {
+    floor.positions[corner] += step;
+    lost += go_to({0.2, 0.5 * width, -depth}).friction_loss;
+  }
+  EXPECT_LE(lost, mu * normal_force * 2 * 50 * step * (1 + 1e-9));
+}
