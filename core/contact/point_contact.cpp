@@ -15,8 +15,9 @@ constexpr int longest_walk = 64;  // triangles that a held point may pass in a s
 // caught though rounding or its own widening puts it a little beside.
 constexpr double seam = 1e-6;
 constexpr double steepest_depth = 2;  // change of depth over motion, see faded_depth
-constexpr double farthest_slip = 2;   // change of slip over motion: the spring also turns with the force
-constexpr double rounding = 1e-14;    // of coordinates: what lies on a face counts as outside
+constexpr double most_widths_beside = 10;
+constexpr double farthest_slip = 2;  // change of slip over motion: the spring also turns with the force
+constexpr double rounding = 1e-14;   // of coordinates: what lies on a face counts as outside
 
 struct Corners {
   Vector3 a, b, c;
@@ -108,8 +109,11 @@ Footing nearest_footing(const Body& surface, const SurfaceTopology& topology, co
   return best == at.triangle ? at : Footing{best, foot_on(surface, best, p)};
 }
 
-/// An anchor beside a triangle without width, as collapsing elements have, is carried far off by the smallest motion of
-/// its corners: what no motion of the contact can have brought is no slip, and no work of friction.
+/// An anchor many widths beside its triangle, as narrow as those of collapsing elements, is carried off by the smallest
+/// motion of the corners: what no motion of the contact can have brought is no slip, and no work of friction.
+bool far_beside(const Vector3& weights) {
+  return std::max({std::abs(weights[0]), std::abs(weights[1]), std::abs(weights[2])}) > most_widths_beside;
+}
 void limit_slip(double farthest, Touch& touch) {
   if (const double length = norm(touch.slip); length > farthest) touch.slip = (farthest / length) * touch.slip;
 }
@@ -236,7 +240,9 @@ bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTo
   touch.opposed_weights = at.foot.weights;
   touch.push = depth.push;
   touch.depth = std::max(0.0, depth.value);
-  if (state.anchor >= 0) {
+  if (state.anchor >= 0 && !far_beside(state.anchor_weights)) {
+    set_slip(surface, state, at, p, infinity, touch);
+  } else if (state.anchor >= 0) {
     const double fastest = std::max(relative_speed(points, point, surface, at.triangle),
                                     relative_speed(points, point, surface, static_cast<std::size_t>(state.anchor)));
     set_slip(surface, state, at, p, state.elastic_slip + farthest_slip * dt * fastest, touch);
