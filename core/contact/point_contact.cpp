@@ -109,11 +109,13 @@ Footing nearest_footing(const Body& surface, const SurfaceTopology& topology, co
   return best == at.triangle ? at : Footing{best, foot_on(surface, best, p)};
 }
 
-/// An anchor many widths beside its triangle, as narrow as those of collapsing elements, is carried off by the smallest
-/// motion of the corners: what no motion of the contact can have brought is no slip, and no work of friction.
+/// Many widths beside its triangle, as beside those of collapsing elements, an anchor is carried off by the smallest
+/// motion of the corners.
 bool far_beside(const Vector3& weights) {
   return std::max({std::abs(weights[0]), std::abs(weights[1]), std::abs(weights[2])}) > most_widths_beside;
 }
+
+/// What no motion of the contact can have brought is no slip, and no work of friction.
 void limit_slip(double farthest, Touch& touch) {
   if (const double length = norm(touch.slip); length > farthest) touch.slip = (farthest / length) * touch.slip;
 }
@@ -240,12 +242,12 @@ bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTo
   touch.opposed_weights = at.foot.weights;
   touch.push = depth.push;
   touch.depth = std::max(0.0, depth.value);
-  if (state.anchor >= 0 && !far_beside(state.anchor_weights)) {
-    set_slip(surface, state, at, p, infinity, touch);
-  } else if (state.anchor >= 0) {
+  if (state.anchor >= 0) {
     const double fastest = std::max(relative_speed(points, point, surface, at.triangle),
                                     relative_speed(points, point, surface, static_cast<std::size_t>(state.anchor)));
-    set_slip(surface, state, at, p, state.elastic_slip + farthest_slip * dt * fastest, touch);
+    // The direction of the force may also turn, by an angle times the depth of the spring.
+    const double turning = far_beside(state.anchor_weights) ? 0.0 : std::max(0.0, touch.depth - state.offset);
+    set_slip(surface, state, at, p, state.elastic_slip + farthest_slip * dt * fastest + turning, touch);
   }
   state.on_face = at.foot.feature == Feature::face;
   touch.state = &state;
