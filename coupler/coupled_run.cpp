@@ -325,6 +325,7 @@ void write_reports(Run& run, const std::vector<std::pair<std::string, nlohmann::
     summary["overlap_cells"] = cut.cells;
     summary["overlap_cells_exact"] = cut.exact;
     summary["overlap_cells_two_bodies"] = cut.shared;
+    summary["overlap_triangles_kept"] = cut.kept;
   }
   for (const auto& [name, words] : last_words) summary["participants"][name] = words;
   std::ofstream(run.folder + "/coupler_summary.json") << summary.dump(1) << '\n';

@@ -68,6 +68,7 @@ const geometry::CutCells& OverlapExchange::cut(const Conversation& conversation,
   counts_.cells += walled;
   counts_.exact += exact_ ? walled : static_cast<long>(recut);
   counts_.shared += static_cast<long>(now_.cells.shared_cells);
+  counts_.kept += static_cast<long>(now_.cells.kept_triangles);
   if (debris_displaces_fluid_) {
     const auto inner = watch.lap("debris_displacement");
     std::vector<double> positions, volumes;

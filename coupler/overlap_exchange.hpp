@@ -44,7 +44,8 @@ class OverlapExchange {
     long cells = 0;   ///< with wall
     long exact = 0;   ///< of them, recut by exact numbers because rounding made them uncertain, or all
     long shared = 0;  ///< cells that hold both bodies
-    POLYNYA_STATE(cells, exact, shared)
+    long kept = 0;    ///< triangles that lay where they lay, and were not clipped again
+    POLYNYA_STATE(cells, exact, shared, kept)
   };
   const Counts& counts() const { return counts_; }
 

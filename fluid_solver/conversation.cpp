@@ -26,13 +26,9 @@ exchange::Message make_ready(const Fluid& fluid) {
   ready.add<double>("account", {rows(values.size())}, values);
   ready.add<double>("grid.x", {rows(fluid.grid.x.size())}, fluid.grid.x);
   ready.add<double>("grid.y", {rows(fluid.grid.y.size())}, fluid.grid.y);
-  if (!fluid.motion.follows) {
-    ready.add<double>("grid.z", {rows(fluid.grid.z.size())}, fluid.grid.z);
-    return ready;
-  }
-  const std::vector<double>& first = fluid.motion.first_line[2];
+  const std::vector<double>& first = fluid.motion.first_line[2];  // which the shift counts from
   ready.add<double>("grid.z", {rows(first.size())}, first);
-  ready.header["grid_shift"] = fluid.motion.displaced[2][0];
+  if (fluid.motion.follows) ready.header["grid_shift"] = fluid.motion.displaced[2][0];
   return ready;
 }
 

@@ -85,6 +85,12 @@ struct GroupState {
   double volume = 0, height = 0;  ///< free volume, m^3, and its centre's z, m
 };
 
+/// How often nodes beside solids weighed less and faces were held (held_faces.cpp), summed over steps.
+struct Lightened {
+  long nodes = 0, held_faces = 0;
+  POLYNYA_STATE(nodes, held_faces)
+};
+
 struct Fluid {
   Grid grid;
   Setup setup;
@@ -105,6 +111,7 @@ struct Fluid {
   compute::Stopwatch watch;
   double time = 0;
   long steps = 0;
+  Lightened lightened;
   int correction_iterations = 0;  ///< of the last step's volume correction
 
   // Valid from the beginning of a step; kept for output and for the loads on solids.
@@ -172,7 +179,7 @@ struct Fluid {
   POLYNYA_STATE_MEMBERS_WITHOUT((setup, watch, held_faces, thin_nodes, face_rate, next_velocity), grid, setup, before,
                                 after, groups, group_states, own_compression, material, velocity, motion, ambient,
                                 beyond, far_field, start_damping, largest_density, account, sleeping, watch, time,
-                                steps, correction_iterations, pressure, predicted_pressure, wall_impulse, density,
+                                steps, lightened, correction_iterations, pressure, predicted_pressure, wall_impulse, density,
                                 bulk_modulus, sound_speed, total_mass, face_coefficient, held_faces, thin_nodes,
                                 face_rate, face_mass, next_velocity, open_quarter, quarter_width, whole_nodes,
                                 node_fraction, node_mass, kinetic_loss, volume_change, viscosity, rate, donor,

@@ -27,18 +27,19 @@ struct LightNode {
   double part;  ///< its mass over that of a whole node
 };
 
-/// Mass of a node over what it would be if all around were free and of this density; 0 stands for that of the densest
-/// cell around that can push. Infinite where nothing pushes.
-double part_of_whole(const Fluid& fluid, std::ptrdiff_t node, double density = 0) {
-  const bool find = density == 0;
-  double mass = 0, volume = 0;
+/// Mass and room of the cells around a node, and the largest density of those that can push.
+struct Around {
+  double mass = 0, volume = 0, pushing_density = 0;
+};
+Around around(const Fluid& fluid, std::ptrdiff_t node) {
+  Around sum;
   for (int corner = 0; corner < 8; ++corner) {
     const std::ptrdiff_t c = node - (corner & 1) - (corner & 2 ? fluid.grid.sy : 0) - (corner & 4 ? fluid.grid.sz : 0);
-    mass += fluid.material[water].mass[c] + fluid.material[air].mass[c];
-    volume += fluid.grid.cell_volume[c];
-    if (find && fluid.bulk_modulus[c] > 0) density = std::max(density, fluid.density[c]);
+    sum.mass += fluid.material[water].mass[c] + fluid.material[air].mass[c];
+    sum.volume += fluid.grid.cell_volume[c];
+    if (fluid.bulk_modulus[c] > 0) sum.pushing_density = std::max(sum.pushing_density, fluid.density[c]);
   }
-  return density > 0 ? mass / (density * volume) : 1e300;
+  return sum;
 }
 
 template <class Value>
@@ -68,7 +69,9 @@ std::vector<LightNode> light_nodes(const Fluid& fluid, const std::vector<std::pt
   compute::for_chunks(nodes.size(), together, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       if (!(fluid.node_fraction[nodes[n]] > 0)) continue;
-      const double part = part_of_whole(fluid, nodes[n]);
+      const Around sum = around(fluid, nodes[n]);
+      if (sum.pushing_density == 0) continue;
+      const double part = sum.mass / (sum.pushing_density * sum.volume);
       if (part < light * fluid.node_fraction[nodes[n]]) found[begin / together].push_back({nodes[n], part});
     }
   });
@@ -142,8 +145,10 @@ double most_open(const Fluid& fluid, std::ptrdiff_t face, int axis) {
     if (fluid.bulk_modulus[cell] > 0) density = std::max(density, fluid.density[cell]);
   if (density == 0) return 1;
   std::array<double, 4> mass;
-  std::ranges::transform(nodes_of(fluid.grid, face, axis), mass.begin(),
-                         [&](std::ptrdiff_t node) { return std::min(part_of_whole(fluid, node, density), 1.0); });
+  std::ranges::transform(nodes_of(fluid.grid, face, axis), mass.begin(), [&](std::ptrdiff_t node) {
+    const Around sum = around(fluid, node);
+    return std::min(sum.mass / (density * sum.volume), 1.0);
+  });
   return most_open(mass);
 }
 
@@ -164,6 +169,8 @@ void hold_light_faces(Fluid& fluid) {
   const std::vector<Face> faces = faces_to_weigh(fluid, cells, nodes);
   for (const auto& [node, part] : nodes) fluid.node_fraction[node] = part / light;
   for (const Face& face : faces) weigh_anew(fluid, face);
+  fluid.lightened.nodes += static_cast<long>(nodes.size());
+  fluid.lightened.held_faces += static_cast<long>(fluid.held_faces.size());
 }
 
 void book_held_faces(Fluid& fluid, double dt) {

@@ -170,6 +170,8 @@ void Output::close(const Fluid& fluid, const results::Waits& waits) {
   report_.threads = compute::threads();
   report_.counts["steps"] = static_cast<double>(fluid.steps);
   report_.counts["cells"] = static_cast<double>(fluid.grid.cells());
+  report_.counts["light_nodes"] = static_cast<double>(fluid.lightened.nodes);
+  report_.counts["held_faces"] = static_cast<double>(fluid.lightened.held_faces);
   report_.counts["frames"] = static_cast<double>(frames_.count());
   report_.write(folder_, name_);
 }

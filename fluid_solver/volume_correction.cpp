@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fluid_solver/coarse_network.hpp"
+
 namespace polynya::fluid {
 namespace {
 
 constexpr int layers = 2;              ///< of cells around those that hold walls
 constexpr double least_weight = 0.05;  ///< of a closed face between two cells with fluid
 constexpr double tolerance = 1e-11;    ///< of a cell's volume: with water's stiffness a fiftieth of a pascal
-/// What is left over is compression of the cells. A few dozen suffice where walls move; room that a solid leaves is
-/// handed on along the whole of a wall, which takes more than there are cells along it.
-constexpr int most_iterations = 5000;
+/// What is left over is compression of the cells. Some dozens suffice.
+constexpr int most_iterations = 1000;
 
 class Network {
  public:
@@ -50,7 +51,7 @@ class Network {
         sum += source[part[at]];
         volume += mean_volume(cells[part[at]]);
         for (int side = 0; side < 6; ++side) {
-          const std::int32_t other = neighbours[side][part[at]];
+          const std::int32_t other = links.neighbours[side][part[at]];
           if (seen[other]) continue;  // where there is no neighbour the cell itself stands
           seen[other] = 1;
           part.push_back(other);
@@ -60,22 +61,24 @@ class Network {
     }
   }
 
-  /// Conjugate gradients for sum over faces of weight (x - x_neighbour) = source. Each iteration goes three times over
-  /// vectors that stay in cache, in packs.
+  /// Conjugate gradients for sum over faces of weight (x - x_neighbour) = source, on two levels: cells by the diagonal,
+  /// lumps of them at once.
   std::vector<double> solve(const std::vector<double>& source, int& iterations) const {
     const std::size_t count = cells.size();
-    std::vector<double> x(count, 0.0), residual = source, direction(count, 0.0), image(count), scale(count);
-    for (std::size_t c = 0; c < count; ++c) scale[c] = diagonal[c] > 0 ? 1.0 / diagonal[c] : 0.0;
-    Norms norms = norms_of(residual, scale);
+    std::vector<double> x(count, 0.0), residual = source, direction(count, 0.0), image(count), changed(count);
+    CoarseNetwork coarse(links);
     double before = 0;
-    for (iterations = 0; iterations < most_iterations && norms.product > 0 && norms.worst >= tolerance; ++iterations) {
-      const double turn = before > 0 ? norms.product / before : 0.0;
-      const double *r = residual.data(), *s = scale.data();
+    iterations = 0;
+    for (; iterations < most_iterations && worst_of(residual) >= tolerance; ++iterations) {
+      const double product = precondition(residual, coarse, changed);
+      if (!(product > 0)) break;
+      const double turn = before > 0 ? product / before : 0.0;
+      before = product;
+      const double* z = changed.data();
       double* d = direction.data();
 #pragma omp simd
-      for (std::size_t c = 0; c < count; ++c) d[c] = r[c] * s[c] + turn * d[c];
-      before = norms.product;
-      const double step = before / apply(direction, image);
+      for (std::size_t c = 0; c < count; ++c) d[c] = z[c] + turn * d[c];
+      const double step = product / apply(direction, image);
       double *to = x.data(), *left = residual.data();
       const double* q = image.data();
 #pragma omp simd
@@ -83,39 +86,44 @@ class Network {
         to[c] += step * d[c];
         left[c] -= step * q[c];
       }
-      norms = norms_of(residual, scale);
     }
     return x;
   }
 
   std::vector<std::ptrdiff_t> cells;
-  // By side (x-, x+, y-, y+, z-, z+) and cell: the neighbour and the face between them. Where there is none: the cell
-  // itself and 0.
-  std::array<std::vector<std::int32_t>, 6> neighbours;
-  std::array<std::vector<double>, 6> weights;
+  CellNetwork links;  ///< sides in the order x-, x+, y-, y+, z-, z+
   std::vector<double> diagonal;
 
  private:
-  struct Norms {
-    double product, worst;  ///< residual times what is made of it; the largest of a cell, of its volume
-  };
-  Norms norms_of(const std::vector<double>& residual, const std::vector<double>& scale) const {
-    const double *r = residual.data(), *s = scale.data(), *full = full_volume_.data();
-    double product = 0, worst = 0;
-#pragma omp simd reduction(+ : product) reduction(max : worst)
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      product += r[c] * r[c] * s[c];
-      worst = std::max(worst, std::abs(r[c]) / full[c]);
-    }
-    return {product, worst};
+  /// The largest residual of a cell, of its volume.
+  double worst_of(const std::vector<double>& residual) const {
+    const double *r = residual.data(), *full = full_volume_.data();
+    double worst = 0;
+#pragma omp simd reduction(max : worst)
+    for (std::size_t c = 0; c < cells.size(); ++c) worst = std::max(worst, std::abs(r[c]) / full[c]);
+    return worst;
+  }
+  /// Returns the product of the residual and what is made of it.
+  double precondition(const std::vector<double>& residual, CoarseNetwork& coarse, std::vector<double>& changed) const {
+    const double *r = residual.data(), *own = diagonal.data();
+    double* z = changed.data();
+#pragma omp simd
+    for (std::size_t c = 0; c < cells.size(); ++c) z[c] = own[c] > 0 ? r[c] / (own[c] > 0 ? own[c] : 1.0) : 0.0;
+    coarse.add_correction(residual, changed);
+    double product = 0;
+#pragma omp simd reduction(+ : product)
+    for (std::size_t c = 0; c < cells.size(); ++c) product += r[c] * z[c];
+    return product;
   }
   /// Sum over faces of weight (d - d_neighbour); returns its product with d.
   double apply(const std::vector<double>& direction, std::vector<double>& image) const {
     const double *d = direction.data(), *own = diagonal.data();
-    const auto [t0, t1, t2, t3, t4, t5] = std::array{neighbours[0].data(), neighbours[1].data(), neighbours[2].data(),
-                                                     neighbours[3].data(), neighbours[4].data(), neighbours[5].data()};
-    const auto [w0, w1, w2, w3, w4, w5] = std::array{weights[0].data(), weights[1].data(), weights[2].data(),
-                                                     weights[3].data(), weights[4].data(), weights[5].data()};
+    const auto& t = links.neighbours;
+    const auto& w = links.weights;
+    const auto [t0, t1, t2, t3, t4, t5] =
+        std::array{t[0].data(), t[1].data(), t[2].data(), t[3].data(), t[4].data(), t[5].data()};
+    const auto [w0, w1, w2, w3, w4, w5] =
+        std::array{w[0].data(), w[1].data(), w[2].data(), w[3].data(), w[4].data(), w[5].data()};
     double* q = image.data();
     double product = 0;
 #pragma omp simd reduction(+ : product)
@@ -131,26 +139,26 @@ class Network {
   void link() {
     const std::size_t count = cells.size();
     for (int side = 0; side < 6; ++side) {
-      neighbours[side].resize(count);
-      weights[side].assign(count, 0.0);
+      links.neighbours[side].resize(count);
+      links.weights[side].assign(count, 0.0);
     }
     diagonal.assign(count, 0.0);
     for (std::size_t c = 0; c < count; ++c) {
       for (int side = 0; side < 6; ++side) {
         const std::int32_t other = label_[neighbour(cells[c], side)];
-        neighbours[side][c] = other < 0 ? static_cast<std::int32_t>(c) : other;
+        links.neighbours[side][c] = other < 0 ? static_cast<std::int32_t>(c) : other;
       }
       // A face belongs to the cell above it; the cell below takes it over.
       std::array<int, 3> index;
       grid_.position(cells[c], index[0], index[1], index[2]);
       for (int axis = 0; axis < 3; ++axis) {
-        const std::int32_t lower = neighbours[2 * axis][c];
+        const std::int32_t lower = links.neighbours[2 * axis][c];
         if (lower == static_cast<std::int32_t>(c)) continue;
-        weights[2 * axis][c] = weights[2 * axis + 1][lower] = face_weight(cells[c], index, axis);
+        links.weights[2 * axis][c] = links.weights[2 * axis + 1][lower] = face_weight(cells[c], index, axis);
       }
     }
     for (int side = 0; side < 6; ++side) {
-      for (std::size_t c = 0; c < count; ++c) diagonal[c] += weights[side][c];
+      for (std::size_t c = 0; c < count; ++c) diagonal[c] += links.weights[side][c];
     }
   }
 
@@ -204,8 +212,8 @@ VolumeCorrection correct_volumes(const Grid& grid, const CutGeometry& before, co
   correction.outflow.assign(network.cells.size(), 0.0);
   for (std::size_t c = 0; c < network.cells.size(); ++c) {
     for (int axis = 0; axis < 3; ++axis) {
-      const std::int32_t lower = network.neighbours[2 * axis][c];
-      const double volume = network.weights[2 * axis][c] * (potential[lower] - potential[c]);
+      const std::int32_t lower = network.links.neighbours[2 * axis][c];
+      const double volume = network.links.weights[2 * axis][c] * (potential[lower] - potential[c]);
       if (volume == 0) continue;
       correction.faces.push_back({network.cells[c], axis, volume});
       correction.outflow[lower] += volume;

@@ -57,8 +57,6 @@ bool rests(const AxisMotion& axis) {
   return lower_rests(axis) && at_rest(axis.upper_speed, axis.upper_displacement);
 }
 
-}  // namespace
-
 /// A grid that follows the vehicle.
 void check_following(const Values& values, const Scene& scene) {
   if (scene.fluid->grid_follows != "vehicle") return;
@@ -74,6 +72,8 @@ void check_following(const Values& values, const Scene& scene) {
     values.fail("fluid.sweeps",
                 "a grid that moves is remapped in alternating orders; must be alternating, or fluid.grid_follows none");
 }
+
+}  // namespace
 
 void read_grid_motion(const Values& values, Scene& scene) {
   GridMotion motion;

@@ -47,7 +47,7 @@ class FollowingGrid(unittest.TestCase):
 
     def test_books_close(self):
         for whom, summary in self.summary.items():
-            self.assertLess(abs(summary["energy_error"]), 5e-3, whom)
+            self.assertLess(abs(summary["energy_error"]), 5e-4, whom)
             self.assertLess(abs(summary["momentum_error"]), 1e-5, whom)
             self.assertLess(abs(summary["mass_error"]), 1e-12, whom)
 

@@ -66,7 +66,7 @@ TEST(EquationOfState, HotTracesOfWaterInAirLetNoWaveOutrunThoseOfWater) {
   const double density = 0.0045, energy = energy_at(law, density, 1e5);
   const Response r = respond(law, density, energy);
   ASSERT_GT(std::sqrt(bulk_modulus(density, r) / density), 1e5);
-  EXPECT_LT(point_state(law, 2339.0, density, energy * density, 1.0).sound_speed, 2500.0);
+  EXPECT_LT(point_state(law, 2339.0, density, energy * density, 1.0).sound_speed, 1480.0 * 1.001);
   EXPECT_NEAR(point_state(law, 2339.0, 1000.0, 0.0, 1.0).sound_speed, 1480.0, 1e-9);
   EXPECT_NEAR(point_state(law, 2339.0, 970.0, 2e3, 1.0).sound_speed,
               std::sqrt(bulk_modulus(970.0, respond(law, 970.0, 2e3 / 970.0)) / 970.0), 1e-9);
