@@ -9,7 +9,7 @@ from typing import NoReturn
 
 from launcher import ROOT, WRONG_INPUT
 
-NEED_PACKAGES = {"build", "run", "resume", "replay", "explain", "test", "bench", "draw", "conform"}
+NEED_PACKAGES = {"build", "run", "resume", "replay", "explain", "test", "bench", "draw", "conform", "validate"}
 
 
 class Parser(argparse.ArgumentParser):
@@ -127,6 +127,12 @@ def build_parser() -> argparse.ArgumentParser:
     bench = commands.add_parser("bench", help="measure the speed of the kernels")
     bench.add_argument("name", metavar="NAME", nargs="?", help="one bench (default: all)")
     bench.add_argument("--json", action="store_true", help="one line of JSON on standard output")
+
+    validate = commands.add_parser("validate", help="compare with theory, experiments and papers")
+    validate.add_argument("names", metavar="NAME", nargs="*", help="comparisons (default: all, the cheapest first)")
+    validate.add_argument("--list", action="store_true", help="what there is, and what was found last")
+    validate.add_argument("--again", action="store_true", help="also what was found with these very sources")
+    validate.add_argument("--json", action="store_true", help="one line of JSON on standard output")
 
     conform = commands.add_parser("conform", help="whether a solver follows docs/protocol.md",
                                   usage="./polynya conform [options] -- COMMAND ...")

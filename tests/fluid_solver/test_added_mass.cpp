@@ -64,6 +64,8 @@ TEST(AddedMass, OfASphereIsHalfTheDisplacedMass) {
   const double exact = confined_sphere(5);
   const double coarse = sphere_coefficient(8, 5) / exact - 1, fine = sphere_coefficient(16, 5) / exact - 1;
   std::printf("added mass of a sphere: %+.2f %% at 8, %+.2f %% at 16 cells per diameter\n", 100 * coarse, 100 * fine);
+  RecordProperty("coarse", std::to_string(coarse));
+  RecordProperty("fine", std::to_string(fine));
   EXPECT_LT(std::abs(coarse), 0.07);
   EXPECT_LT(std::abs(fine), 0.03);
 }
@@ -72,6 +74,8 @@ TEST(AddedMass, OfACylinderIsTheDisplacedMass) {
   const double exact = confined_cylinder(12);
   const double coarse = cylinder_coefficient(8, 12) / exact - 1, fine = cylinder_coefficient(16, 12) / exact - 1;
   std::printf("added mass of a cylinder: %+.2f %% at 8, %+.2f %% at 16 cells per diameter\n", 100 * coarse, 100 * fine);
+  RecordProperty("coarse", std::to_string(coarse));
+  RecordProperty("fine", std::to_string(fine));
   EXPECT_LT(std::abs(coarse), 0.07);
   EXPECT_LT(std::abs(fine), 0.03);
 }

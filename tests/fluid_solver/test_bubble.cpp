@@ -162,6 +162,8 @@ TEST(Bubble, CollapsesAsKellerAndMiksisSay) {
   }
   std::printf("bubble, %zu cells: radius within %.4f of the first, %.4f of the present one; late by %.4f of the time\n",
               fluid.grid.cells(), worst, relative, late);
+  RecordProperty("worst", std::to_string(worst));
+  RecordProperty("late", std::to_string(late));
   EXPECT_LT(worst, 0.02);
   EXPECT_LT(std::abs(late), 0.005);
   EXPECT_LT(before, 0.25 * bubble.radius) << "at " << previous_time;
