@@ -104,15 +104,23 @@ class ColumnWalk {
     const double wall =
         std::sqrt(piece.area[0] * piece.area[0] + piece.area[1] * piece.area[1] + piece.area[2] * piece.area[2]);
     s.wall += wall;
-    const std::int32_t* vertex = bodies_[b].triangles.data() + 3 * static_cast<std::size_t>(piece.triangle);
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double* velocity = bodies_[b].velocities.data() + 3 * static_cast<std::size_t>(vertex[c]);
-      for (std::size_t d = 0; d < 3; ++d) {
-        s.weighted_velocity[d] += wall * piece.weights[c] * velocity[d];
-        s.sweep += piece.area[d] * piece.weights[c] * velocity[d];
-      }
+    const std::array<double, 3> velocity = velocity_of(piece, bodies_[b]);
+    s.sweep += piece.area[0] * velocity[0] + piece.area[1] * velocity[1] + piece.area[2] * velocity[2];
+    for (std::size_t d = 0; d < 3; ++d) {
+      s.weighted_velocity[d] += wall * velocity[d];
+      s.area[d] += piece.area[d];
     }
-    for (std::size_t d = 0; d < 3; ++d) s.area[d] += piece.area[d];
+  }
+
+  static std::array<double, 3> velocity_of(const PieceRecord& piece, const BodySurface& body) {
+    const std::int32_t* vertex = body.triangles.data() + 3 * static_cast<std::size_t>(piece.triangle);
+    const std::array<const double*, 3> at{body.velocities.data() + 3 * static_cast<std::size_t>(vertex[0]),
+                                          body.velocities.data() + 3 * static_cast<std::size_t>(vertex[1]),
+                                          body.velocities.data() + 3 * static_cast<std::size_t>(vertex[2])};
+    std::array<double, 3> velocity;
+    for (std::size_t d = 0; d < 3; ++d)
+      velocity[d] = piece.weights[0] * at[0][d] + piece.weights[1] * at[1][d] + piece.weights[2] * at[2][d];
+    return velocity;
   }
 
   double height(std::int32_t k) const { return z_[static_cast<std::size_t>(k) + 1] - z_[static_cast<std::size_t>(k)]; }
