@@ -19,7 +19,7 @@ inline continuum::Law elastic_ice() {
   return continuum::Elastic{900, 8.1254e9, 4.4444e9};
 }
 
-/// The constants of the card ice.fresh.
+/// The constants of the card ice.fresh, but a damage constant at which elements fail later.
 inline continuum::JohnsonHolmquist2 brittle_ice() {
   continuum::JohnsonHolmquist2 law;
   law.density = 900;
