@@ -18,6 +18,12 @@ Debris debris_from_name(const std::string& name) {
   throw std::invalid_argument("ice.particles is \"" + name + "\"; it must be element_centre, free_masses or none");
 }
 
+continuum::Integration integration_from_name(const std::string& name) {
+  if (name == "one_point") return continuum::Integration::one_point;
+  if (name == "full") return continuum::Integration::full;
+  throw std::invalid_argument("ice.integration is \"" + name + "\"; it must be one_point or full");
+}
+
 /// Of the elements about the axis, m: cracks run between elements along any axis, so the cube root of the volume.
 double element_size(const scene::GridLines& lines) {
   const auto at_axis = [](const std::vector<double>& line) {
@@ -49,6 +55,7 @@ IceOptions options_from_scene(const scene::Scene& scene) {
     options.sides = Sides::free;
     options.ball = {0.5 * ice.ball->diameter, scene.resolution.ice_element, ice.lower_face, ice.ball->speed};
   }
+  options.numerics.integration = integration_from_name(ice.integration);
   options.debris = debris_from_name(ice.particles);
   options.conversion = scene.effect("conversion");
   options.critical_strain = ice.critical_strain;

@@ -9,6 +9,15 @@ Place place_of(std::size_t element) {
   return {element / w, element % w};
 }
 
+/// arrays: ElementState or PointArrays.
+template <class Arrays>
+void store_state(const PointState<double>& state, Arrays& arrays, std::size_t e) {
+  for (std::size_t c = 0; c < 6; ++c) arrays.stress[c][e] = state.stress[c];
+  arrays.damage[e] = state.damage;
+  arrays.plastic_strain[e] = state.plastic_strain;
+  arrays.bulking_pressure[e] = state.bulking_pressure;
+}
+
 std::array<double, 3> mean_of(const ExplicitSolid& solid, const std::vector<double>& values, std::size_t element) {
   std::array<double, 3> mean{};
   for (std::size_t a = 0; a < 8; ++a)
@@ -43,10 +52,8 @@ PointState<double> point_state(const ExplicitSolid& solid, std::size_t element) 
 }
 
 void set_point_state(ExplicitSolid& solid, std::size_t element, const PointState<double>& state) {
-  for (std::size_t c = 0; c < 6; ++c) solid.element.stress[c][element] = state.stress[c];
-  solid.element.damage[element] = state.damage;
-  solid.element.plastic_strain[element] = state.plastic_strain;
-  solid.element.bulking_pressure[element] = state.bulking_pressure;
+  store_state(state, solid.element, element);
+  for (PointArrays& point : solid.points) store_state(state, point, element);
 }
 
 }  // namespace polynya::continuum

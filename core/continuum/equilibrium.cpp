@@ -127,6 +127,7 @@ void bring_into_equilibrium(ExplicitSolid& solid, std::span<const double> loads)
   solid.irregular = std::move(shaped.irregular);
   solid.element.reference_volume = std::move(shaped.element.reference_volume);
   solid.element.stress = std::move(relaxed.element.stress);
+  solid.points = std::move(relaxed.points);
 }
 
 }  // namespace polynya::continuum

@@ -13,7 +13,7 @@
 #include "core/continuum/nodal_lanes.hpp"
 #include "core/continuum/surface.hpp"
 
-/// A body of one-point hexahedra moved by central differences: state and the steps that change it.
+/// A body of hexahedra, with one point or with eight, moved by central differences: state and the steps that change it.
 ///
 /// One step from t(n) to t(n+1), with dt the step:
 ///     advance_positions(solid, dt);                       x(n+1) = x(n) + dt v(n+1/2)
@@ -22,7 +22,11 @@
 /// A start with forces at t(0): internal_forces(solid, 0), advance_velocities(solid, external, 0, dt).
 namespace polynya::continuum {
 
-/// Dimensionless coefficients of what is added to the stress of the law.
+/// Points of a hexahedron at which the law is asked: one, with forces against hourglass modes (hourglass.hpp); or
+/// eight, without such forces (full_hexahedron.hpp): some six times the work, for comparison.
+enum class Integration { one_point, full };
+
+/// Where the law is asked, and dimensionless coefficients of what is added to its stress.
 struct Numerics {
   double quadratic_viscosity = 1.5;  ///< bulk viscosity, only in compression
   double linear_viscosity = 0.06;
@@ -30,9 +34,11 @@ struct Numerics {
   double hourglass_viscosity = 0.05;  ///< decay rate of an hourglass mode in units of wave speed / length
   double hourglass_floor = 0.01;      ///< the part of the decay rate that the cap by the flow stress leaves alone
   double hourglass_flowed = 0.3;      ///< the part of the stiffness that plastic flow leaves
+  Integration integration = Integration::one_point;
 };
 
-/// Per element; every array is padded to whole packs, padding elements are dead.
+/// Per element; every array is padded to whole packs, padding elements are dead. With full integration stress, damage,
+/// plastic strain and bulking pressure are the plain means over the element's points.
 struct ElementState {
   std::array<std::vector<double>, 6> stress;  ///< Pa, Cauchy at t(n): xx, yy, zz, xy, yz, zx; positive in tension
   std::vector<double> volume;                 ///< m^3
@@ -45,6 +51,16 @@ struct ElementState {
   std::vector<double> alive;             ///< 1 living, 0 removed
 
   POLYNYA_STATE(stress, volume, reference_volume, mass, damage, plastic_strain, bulking_pressure, step_limit, alive)
+};
+
+/// One point of every element with full integration, padded like ElementState.
+struct PointArrays {
+  std::array<std::vector<double>, 6> stress;  ///< Pa, like ElementState's
+  std::vector<double> damage;                 ///< 0..1
+  std::vector<double> plastic_strain;
+  std::vector<double> bulking_pressure;  ///< Pa
+
+  POLYNYA_STATE(stress, damage, plastic_strain, bulking_pressure)
 };
 
 /// Traction -rho c_p v_n A - rho c_s v_t A on the nodes of a boundary that waves should leave through.
@@ -88,6 +104,7 @@ struct ExplicitSolid {
   std::vector<std::uint8_t> living_elements;  ///< [n], number of living elements at the node
 
   ElementState element;
+  std::vector<PointArrays> points;  ///< [8] with full integration, else none
   DampedNodes damped;
   double step_limit = 0;  ///< s, of the last internal_forces
 
@@ -114,7 +131,7 @@ struct ExplicitSolid {
   std::size_t element_count() const { return mesh.element_count(); }
 
   POLYNYA_STATE_WITHOUT((name, law, numerics, connectivity, chunks, force_shares), name, mesh, law, numerics, time,
-                        positions, velocities, internal_force, masses, fixed, living_elements, element, damped,
+                        positions, velocities, internal_force, masses, fixed, living_elements, element, points, damped,
                         step_limit, kinetic_energy, internal_work, hourglass_energy, viscous_energy, external_work,
                         boundary_flux, removed_energy, step_change, pending_internal_work, pending_external_work,
                         pending_boundary_flux, pending_step_change, connectivity, natural_hourglass, irregular,
@@ -169,8 +186,9 @@ std::array<double, 3> element_centre(const ExplicitSolid& solid, std::size_t ele
 std::array<double, 3> element_velocity(const ExplicitSolid& solid, std::size_t element);  ///< m/s, mean of nodes
 Tensor<double> velocity_gradient(const ExplicitSolid& solid, std::size_t element);        ///< 1/s
 Tensor<double> deformation_gradient(const ExplicitSolid& solid, std::size_t element);     ///< at the centre
-PointState<double> point_state(const ExplicitSolid& solid, std::size_t element);
-void set_point_state(ExplicitSolid& solid, std::size_t element, const PointState<double>& state);  ///< not the volume
+PointState<double> point_state(const ExplicitSolid& solid, std::size_t element);          ///< mean over its points
+/// Of all points of the element; not the volume.
+void set_point_state(ExplicitSolid& solid, std::size_t element, const PointState<double>& state);
 /// Shortest distance between opposite faces, m (a lower bound for skewed elements).
 double characteristic_length(const ExplicitSolid& solid, std::size_t element);
 

@@ -51,8 +51,9 @@ POLYNYA_INLINE NodalVectors<T> nodal_vectors(const std::vector<NodeRecord>& node
   return result;
 }
 
-template <class T>
-POLYNYA_INLINE PointState<T> load_state(const ElementState& element, std::size_t e) {
+/// arrays: ElementState or PointArrays.
+template <class T, class Arrays>
+POLYNYA_INLINE PointState<T> load_state(const Arrays& element, std::size_t e) {
   PointState<T> state;
   for (int c = 0; c < 6; ++c) state.stress[c] = load<T>(&element.stress[c][e]);
   state.damage = load<T>(&element.damage[e]);

@@ -78,7 +78,9 @@ void add_shared_forces(ExplicitSolid& solid) {
 }
 
 void internal_forces(ExplicitSolid& solid, double dt) {
-  std::visit([&](const auto& law) { advance_all_elements<compute::Pack>(solid, law, dt); }, solid.law);
+  if (solid.numerics.integration == Integration::full) return internal_forces_full(solid, dt);
+  std::visit([&](const auto& law) { advance_all_elements<Integration::one_point, compute::Pack>(solid, law, dt); },
+             solid.law);
 }
 
 }  // namespace polynya::continuum

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/compute/parallel.hpp"
+#include "core/continuum/full_kernel.hpp"
 #include "core/continuum/hexahedron_kernel.hpp"
 
 namespace polynya::continuum {
@@ -18,13 +19,16 @@ void hand_out_forces(const ChunkNodes& nodes, std::size_t chunk, ExplicitSolid& 
 /// Adds up the shares of the nodes of several chunks.
 void add_shared_forces(ExplicitSolid& solid);
 
+/// internal_forces of fully integrated elements.
+void internal_forces_full(ExplicitSolid& solid, double dt);
+
 /// What a chunk tells besides forces.
 struct ChunkReport {
   double hourglass = 0, viscous = 0, step_limit = 1e300;
   std::size_t bad_pack = std::numeric_limits<std::size_t>::max();
 };
 
-template <class T, class LawType>
+template <Integration integration, class T, class LawType>
 ChunkReport advance_packs(ExplicitSolid& solid, const LawType& law, std::size_t begin, std::size_t end, double dt,
                           ChunkNodes& nodes) {
   ChunkReport report;
@@ -33,8 +37,12 @@ ChunkReport advance_packs(ExplicitSolid& solid, const LawType& law, std::size_t 
     if (solid.idle[pack]) continue;
     prefetch_state<LawType>(solid, pack);
     bool good = true;
-    for (std::size_t lane = 0; lane < compute::pack_width; lane += width_of<T>)
-      good = advance_elements<LawType, T>(solid, law, {pack, lane}, dt, nodes, sums) && good;
+    for (std::size_t lane = 0; lane < compute::pack_width; lane += width_of<T>) {
+      if constexpr (integration == Integration::full)
+        good = advance_full_elements<LawType, T>(solid, law, {pack, lane}, dt, nodes, sums) && good;
+      else
+        good = advance_elements<LawType, T>(solid, law, {pack, lane}, dt, nodes, sums) && good;
+    }
     if (!good) report.bad_pack = std::min(report.bad_pack, pack);
     if (solid.complete[pack]) continue;
     const double* alive = &solid.element.alive[pack * compute::pack_width];
@@ -47,7 +55,7 @@ ChunkReport advance_packs(ExplicitSolid& solid, const LawType& law, std::size_t 
 }
 
 /// The loop over elements for one law; T: the number that the kernel works in.
-template <class T, class LawType>
+template <Integration integration, class T, class LawType>
 void advance_all_elements(ExplicitSolid& solid, const LawType& law, double dt) {
   const std::size_t packs_per_chunk = solid.chunks.packs_per_chunk;
   std::vector<ChunkReport> reports(solid.chunks.chunk_count());
@@ -55,7 +63,7 @@ void advance_all_elements(ExplicitSolid& solid, const LawType& law, double dt) {
     thread_local ChunkNodes nodes;
     const std::size_t chunk = begin / packs_per_chunk;
     stage_nodes(solid, chunk, nodes);
-    reports[chunk] = advance_packs<T>(solid, law, begin, end, dt, nodes);
+    reports[chunk] = advance_packs<integration, T>(solid, law, begin, end, dt, nodes);
     hand_out_forces(nodes, chunk, solid);
   });
   add_shared_forces(solid);

@@ -6,6 +6,7 @@
 #include "core/compute/large_pages.hpp"
 #include "core/compute/pack.hpp"
 #include "core/continuum/exposure.hpp"
+#include "core/continuum/full_hexahedron.hpp"
 #include "core/continuum/hexahedron_kernel.hpp"
 
 namespace polynya::continuum {
@@ -19,6 +20,16 @@ void check_mesh(const std::string& name, const HexMesh& mesh) {
     if (n < 0 || static_cast<std::size_t>(n) >= mesh.node_count())
       throw std::invalid_argument(name + ": an element names node " + std::to_string(n) + ", the mesh has " +
                                   std::to_string(mesh.node_count()));
+}
+
+void size_points(ExplicitSolid& solid, std::size_t elements) {
+  if (solid.numerics.integration != Integration::full) return;
+  solid.points.resize(gauss_point_count);
+  for (PointArrays& point : solid.points) {
+    for (auto& component : point.stress) component = compute::zeros_in_large_pages(elements);
+    for (auto* array : {&point.damage, &point.plastic_strain, &point.bulking_pressure})
+      *array = compute::zeros_in_large_pages(elements);
+  }
 }
 
 void size_arrays(ExplicitSolid& solid) {
@@ -37,6 +48,7 @@ void size_arrays(ExplicitSolid& solid) {
     *array = compute::zeros_in_large_pages(elements);
   for (auto& mode : solid.hourglass_stiffness) mode = compute::zeros_in_large_pages(elements);
   for (auto& component : element.stress) component = compute::zeros_in_large_pages(elements);
+  size_points(solid, elements);
   std::fill(element.step_limit.begin(), element.step_limit.end(), 1e300);
   std::fill(element.reference_volume.begin(), element.reference_volume.end(), 1.0);
   solid.natural_hourglass.assign(12 * elements, 0.0);
@@ -114,6 +126,8 @@ ExplicitSolid make_solid(std::string name, HexMesh mesh, Law law, Numerics numer
   internal_forces(solid, 0.0);
   std::copy_n(solid.element.volume.begin(), solid.element_count(), solid.element.reference_volume.begin());
   for (auto& component : solid.element.stress) std::fill(component.begin(), component.end(), 0.0);
+  for (PointArrays& point : solid.points)
+    for (auto& component : point.stress) std::fill(component.begin(), component.end(), 0.0);
   std::fill(solid.element.reference_volume.begin() + static_cast<std::ptrdiff_t>(solid.element_count()),
             solid.element.reference_volume.end(), solid.element.reference_volume[0]);
   for (std::size_t e = 0; e < solid.element_count(); ++e) {

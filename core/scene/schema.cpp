@@ -142,6 +142,10 @@ std::vector<KeyRule> solid_rules() {
       choice("ice.particles", {"element_centre", "free_masses", "none"}, "element_centre",
              "what a failed element becomes: an SPH particle at its centre; a mass there that meets the vehicle only; "
              "nothing, its mass and motion leave"),
+      choice(
+          "ice.integration", {"one_point", "full"}, "one_point",
+          "points of an element at which the law is asked: its centre, with forces against hourglass modes; or 2 x 2 x "
+          "2 without such forces, slower, for comparison"),
       positive("ice.ball.diameter", dim::length, "required",
                "of a ball of ice that falls on a rigid, smooth plate at `lower_face`, instead of a plate of ice"),
       positive("ice.ball.speed", dim::speed, "required", "of the ball, downward", 1000),

@@ -111,6 +111,7 @@ Ice read_ice(const Values& values) {
   ice.material = values.text("ice.material");
   ice.critical_strain = values.number("ice.critical_strain");
   ice.particles = values.text("ice.particles");
+  ice.integration = values.text("ice.integration");
   ice.held_rim = values.number("ice.held_rim");
   if (2 * ice.held_rim > std::min(ice.length, ice.width))
     values.fail("ice.held_rim", "must be at most half of ice.length and ice.width");

@@ -18,7 +18,7 @@ using polynya::testing::state_difference;
 constexpr double size = 0.002;
 
 /// A brittle plate, a quarter of it modelled, whose middle is thrown up: it breaks and becomes particles, step by step.
-IceOptions breaking_plate() {
+IceOptions breaking_plate(continuum::Integration integration = continuum::Integration::one_point) {
   IceOptions options = block_options(8, 8, 4, size, brittle_ice());
   options.conversion = true;
   options.critical_strain = 0.03;
@@ -27,6 +27,7 @@ IceOptions breaking_plate() {
   options.planes = {true, true};
   options.sides = Sides::non_reflecting;
   options.gravity = 9.81;
+  options.numerics.integration = integration;
   return options;
 }
 
@@ -44,14 +45,15 @@ double advance_by(IceBody& ice, double dt, int steps) {
 }
 
 /// As often as asked for, from the first conversions on.
-void expect_same_course(int steps_before, int steps_after) {
-  IceBody whole = make_ice(breaking_plate());
+void expect_same_course(int steps_before, int steps_after,
+                        continuum::Integration integration = continuum::Integration::one_point) {
+  IceBody whole = make_ice(breaking_plate(integration));
   throw_middle(whole);
   double dt = start(whole);
   while (whole.particles.count() == 0) dt = advance(whole, dt);
   dt = advance_by(whole, dt, steps_before);
   const std::size_t particles = whole.particles.count();
-  IceBody resumed = make_ice(breaking_plate());
+  IceBody resumed = make_ice(breaking_plate(integration));
   carry_over(whole, resumed);
   ASSERT_EQ(state_difference(whole, resumed), "");
   advance_by(whole, dt, steps_after);
@@ -70,6 +72,10 @@ TEST(Checkpoint, IceGoesOnWithTheSameBitsWhenItsFirstElementHasJustBecomeAPartic
 }
 TEST(Checkpoint, IceGoesOnWithTheSameBitsBetweenTwoBuildsOfItsListOfNeighbours) {
   expect_same_course(37, 60);
+}
+
+TEST(Checkpoint, FullyIntegratedIceGoesOnWithTheSameBits) {
+  expect_same_course(10, 40, continuum::Integration::full);
 }
 
 TEST(Checkpoint, ElasticIceGoesOnWithTheSameBits) {

@@ -10,8 +10,10 @@ namespace {
 using namespace testing;
 
 /// A block in violent motion, a few steps on its way.
-IceBody shaken_block() {
-  IceBody ice = make_ice(block_options(6, 5, 4, 0.002, brittle_ice()));
+IceBody shaken_block(continuum::Integration integration = continuum::Integration::one_point) {
+  IceOptions options = block_options(6, 5, 4, 0.002, brittle_ice());
+  options.numerics.integration = integration;
+  IceBody ice = make_ice(options);
   Noise noise;
   for (double& v : ice.solid.velocities) v = 5 * noise();
   double dt = start(ice);
@@ -47,8 +49,7 @@ TEST(Conversion, KeepsMassAndLinearMomentumAndBooksLostMotionAsHeat) {
   EXPECT_DOUBLE_EQ(account_of(ice).broken_mass, static_cast<double>(chosen.size()) * 900 * 8e-9);
 }
 
-TEST(Conversion, HandsTheStateOfTheElementToTheParticle) {
-  IceBody ice = shaken_block();
+void expect_state_handed_on(IceBody ice) {
   const std::size_t e = 37;
   const auto state = continuum::point_state(ice.solid, e);
   const auto centre = continuum::element_centre(ice.solid, e);
@@ -65,6 +66,18 @@ TEST(Conversion, HandsTheStateOfTheElementToTheParticle) {
   EXPECT_EQ(p.plastic_strain[0], state.plastic_strain);
   EXPECT_DOUBLE_EQ(p.points.density[0], 900 / state.relative_volume);
   EXPECT_NEAR(p.points.smoothing_length[0], 1.2 * 0.002 * std::cbrt(state.relative_volume), 1e-15);
+}
+
+TEST(Conversion, HandsTheStateOfTheElementToTheParticle) {
+  expect_state_handed_on(shaken_block());
+}
+
+TEST(Conversion, HandsTheMeanOverThePointsOfAFullyIntegratedElementToTheParticle) {
+  const IceBody ice = shaken_block(continuum::Integration::full);
+  double mean = 0;
+  for (const auto& point : ice.solid.points) mean += point.stress[0][37] / 8;
+  EXPECT_NEAR(continuum::point_state(ice.solid, 37).stress[0], mean, 1e-12 * std::abs(mean));
+  expect_state_handed_on(ice);
 }
 
 TEST(Conversion, BooksTheAngularMomentumThatOneParticleCannotCarry) {

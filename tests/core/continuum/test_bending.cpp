@@ -76,6 +76,10 @@ Swing cantilever(int n, int across, double aspect, Numerics numerics) {
   return swing;
 }
 
+double error_of(const Swing& swing) {
+  return swing.frequency / timoshenko_frequency() - 1;
+}
+
 /// Without anything that dissipates.
 Numerics elastic_only() {
   Numerics numerics;
@@ -86,7 +90,7 @@ Numerics elastic_only() {
 
 void expect_swing(int n, double aspect, double tolerance) {
   const Swing swing = cantilever(n, n, aspect, elastic_only());
-  const double error = swing.frequency / timoshenko_frequency() - 1;
+  const double error = error_of(swing);
   std::printf("%d elements through the height, %.0f times as long: frequency %+.2f %%, hourglass energy %.4f\n", n,
               aspect, 100 * error, swing.hourglass_share);
   EXPECT_LT(std::abs(error), tolerance);
@@ -101,6 +105,21 @@ TEST(Cantilever, SwingsWithTheFrequencyOfTimoshenkosBeamOnTwoElementsAndOnFour) 
 TEST(Cantilever, LongElementsDoNotLock) {
   expect_swing(2, 4, 0.02);
   expect_swing(4, 4, 0.015);
+}
+
+// Fully integrated elements shear where they should bend, cubes by (h/n)^2 too stiff: the reason to have the other
+// kind.
+TEST(Cantilever, OfFullyIntegratedElementsIsTooStiffAndConvergesWithTheSquareOfTheirSize) {
+  Numerics numerics = elastic_only();
+  numerics.integration = Integration::full;
+  std::vector<double> errors;
+  for (const int n : {2, 4}) {
+    errors.push_back(error_of(cantilever(n, n, 1, numerics)));
+    std::printf("%d fully integrated elements through the height: frequency %+.2f %%\n", n, 100 * errors.back());
+  }
+  EXPECT_LT(errors[0], 0.2);
+  EXPECT_GT(errors[1], 0);
+  EXPECT_NEAR(errors[0] / errors[1], 4, 0.8);
 }
 
 }  // namespace

@@ -73,6 +73,7 @@ TEST(SceneErrors, ImpossibleValuesSayWhatIsAllowed) {
       {{"fluid.length=100 mm"}, {"must not be below that of the ice"}},
       {{"water.depth=0"}, {"0 makes the ice the floor of the water", "clamped"}},
       {{"ice.damping=100"}, {"comes to rest", "beside [vehicle]"}},
+      {{"ice.integration=ful"}, {"one of one_point, full", "did you mean full?"}},
       {{"ice.sides=clamped_end"}, {"did you mean clamped_ends?"}},
       {{"vehicle=3"}, {"must be a table, [vehicle]"}},
       {{"vehicle"}, {"must be key=value"}},
