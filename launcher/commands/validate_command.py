@@ -37,9 +37,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 def compare(each: comparison.Comparison) -> dict:
     """Runs a comparison and keeps its result."""
-    folder = ROOT / "runs" / "validation" / each.name
-    seconds = measure.run_scene(each, folder) if each.scene else measure.run_program(each, folder)
-    values = [measure.value_of(quantity, folder) for quantity in each.quantities]
+    folder, seconds, values = ROOT / "runs" / "validation" / each.name, 0.0, []
+    for further in each.repeats:
+        seconds += measure.run_scene(each, further, folder) if each.scene else measure.run_program(each, folder)
+        values.append([measure.value_of(quantity, folder) for quantity in each.quantities])
     found = results.result(each, values, seconds, draw.draw(each, folder, results.FOLDER))
     results.write(found)
     return found

@@ -59,6 +59,7 @@ class Comparison:
     program: str = ""
     filter: str = ""
     curves: tuple[Curve, ...] = field(default=())
+    repeats: tuple[tuple[str, ...], ...] = ((),)  # further settings of each run; quantities are means over the runs
 
 
 def read_all(folder: Path = FOLDER) -> list[Comparison]:
@@ -93,7 +94,8 @@ def read(file: Path) -> Comparison:
     curves = tuple(read_curve(Entries(file, each, f"curve {n + 1}: ")) for n, each in enumerate(table.pop("curve", [])))
     comparison = Comparison(file.stem, entries.text("title"), entries.text("about"), entries.number("minutes"),
                             quantities, hashlib.sha256(text).hexdigest()[:16], scene, entries.text("level", ""),
-                            tuple(entries.take("set", [])), program, entries.text("filter", ""), curves)
+                            tuple(entries.take("set", [])), program, entries.text("filter", ""), curves,
+                            tuple(tuple(each) for each in entries.take("repeats", [[]])))
     entries.finish()
     return comparison
 

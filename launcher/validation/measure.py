@@ -32,11 +32,11 @@ REDUCTIONS = {
 }
 
 
-def run_scene(comparison: Comparison, folder: Path) -> float:
-    """Runs the scene into a folder; seconds it took. Throws Failure with what the run said."""
+def run_scene(comparison: Comparison, further: tuple[str, ...], folder: Path) -> float:
+    """Runs the scene, with further settings, into a folder; seconds it took. Throws Failure with what the run said."""
     command = [str(ROOT / "polynya"), "run", comparison.scene, "--out", str(folder), "--json", "--no-pictures"]
     command += ["--level", comparison.level] if comparison.level else []
-    for setting in comparison.settings:
+    for setting in comparison.settings + further:
         command += ["--set", setting]
     return timed(command)
 

@@ -43,24 +43,28 @@ def kept(comparison: Comparison) -> dict | None:
     return found if found.get("fingerprint") == comparison.fingerprint else None
 
 
-def result(comparison: Comparison, values: list[float], seconds: float, pictures: list[str]) -> dict:
+def result(comparison: Comparison, runs: list[list[float]], seconds: float, pictures: list[str]) -> dict:
+    """runs: [runs][quantities]."""
     return {"name": comparison.name, "title": comparison.title, "about": comparison.about,
             "command": f"./polynya validate {comparison.name}", "runs": what_runs(comparison),
             "fingerprint": comparison.fingerprint, "commit": commit(), "machine": machine(),
             "date": datetime.date.today().isoformat(), "wall_time": round(seconds, 2), "pictures": pictures,
-            "quantities": [outcome(quantity, ours) for quantity, ours in zip(comparison.quantities, values)]}
+            "quantities": [outcome(quantity, values) for quantity, values in zip(comparison.quantities, zip(*runs))]}
 
 
 def what_runs(comparison: Comparison) -> str:
     if comparison.program:
         return comparison.program + (f" --gtest_filter='{comparison.filter}'" if comparison.filter else "")
     words = ["./polynya run", comparison.scene] + ([f"--level {comparison.level}"] if comparison.level else [])
-    return " ".join(words + [f"--set {each!r}" for each in comparison.settings])
+    command = " ".join(words + [f"--set {each!r}" for each in comparison.settings])
+    several = [" ".join(f"--set {each!r}" for each in further) for further in comparison.repeats if further]
+    return command + (f", mean of {len(comparison.repeats)} runs: {', '.join(several)}" if several else "")
 
 
-def outcome(quantity: Quantity, ours: float) -> dict:
-    reference = quantity.reference
-    return {"name": quantity.name, "ours": ours, "reference": reference.value, "range": [reference.low, reference.high],
+def outcome(quantity: Quantity, values: tuple[float, ...]) -> dict:
+    """The mean of several runs, with what they are apart."""
+    reference, ours = quantity.reference, sum(values) / len(values)
+    return {"name": quantity.name, "ours": ours, "spread": max(values) - min(values), "reference": reference.value, "range": [reference.low, reference.high],
             "source": quantity.source, "unit": quantity.unit, "scale": quantity.scale, "remark": quantity.remark,
             "agrees": reference.holds(ours)}
 
@@ -92,7 +96,9 @@ def section(found: dict) -> list[str]:
         wanted = show(each, each["reference"]) if each["reference"] is not None else "a range"
         lines.append(f"| {each['name']} | {show(each, each['ours'])} {each['unit']} | {wanted} | {low} to {high} | "
                      f"{'yes' if each['agrees'] else '**no**'} | {each['source']} |")
-    lines += [""] + [f"{each['name']}: {each['remark']}\n" for each in found["quantities"] if each["remark"]]
+    lines += [""] + [f"The runs lie {show(each, each['spread'])} {each['unit']} apart in {each['name']}.\n"
+                     for each in found["quantities"] if each["spread"] > 0]
+    lines += [f"{each['name']}: {each['remark']}\n" for each in found["quantities"] if each["remark"]]
     return lines + [f"![{found['title']}](validation/{picture})\n" for picture in found["pictures"]]
 
 

@@ -132,13 +132,14 @@ class Written(Folder):
         each = self.read(GOOD)
         with mock.patch.multiple(results, FOLDER=self.folder / "docs", PAGE=self.folder / "validation.md"):
             pictures = draw.draw(each, self.run_folder(), results.FOLDER)
-            results.write(results.result(each, [8.0, 1.1], 3.2, pictures))
+            results.write(results.result(each, [[7.5, 1.1], [8.5, 1.1]], 3.2, pictures))
             self.assertEqual([q["agrees"] for q in results.kept(each)["quantities"]], [False, True])
             results.write_page([each])
             page = results.PAGE.read_text()
             self.assertTrue((results.FOLDER / "fall.png").stat().st_size > 1000)
             self.assertIsNone(results.kept(self.read(GOOD.replace("tower", "mast"))))
         self.assertIn("1 of 2 quantities", page)
+        self.assertIn("The runs lie 1 m/s apart in speed.", page)
         self.assertIn("| speed | 8 m/s | 10 | 9 to 11 | **no** | Galilei |", page)
         self.assertIn("![A fall](validation/fall.png)", page)
 
