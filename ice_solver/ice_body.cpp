@@ -11,11 +11,6 @@
 namespace polynya::ice {
 namespace {
 
-/// An element fails by its mean strain alone: ice that its hourglass modes hold together does not break. With the whole
-/// stiffness of bending nothing broke in the first 40 us of the base scene's blow at 1 mm, and the hull felt 2.3 kN
-/// instead of 1.0. A third is what Flanagan & Belytschko's form with kappa = 0.05 gives to cubes.
-constexpr double brittle_share_of_bending = 1.0 / 3;
-
 // Elements outside the background are not watched; at this interval nothing slower than c/75 can enter unseen.
 constexpr int longest_list_life = 25;
 constexpr double skin_in_smoothing_lengths = 0.2;
@@ -61,10 +56,7 @@ PairViscosity viscosity_of(const IceBody& ice) {
 IceBody make_ice(const IceOptions& options) {
   IceBody ice;
   ice.options = options;
-  continuum::Numerics numerics = options.numerics;
-  if (std::holds_alternative<continuum::JohnsonHolmquist2>(options.law))
-    numerics.hourglass_stiffness *= brittle_share_of_bending;
-  ice.solid = continuum::make_solid("ice", mesh_of(options), options.law, numerics);
+  ice.solid = continuum::make_solid("ice", mesh_of(options), options.law, options.numerics);
   constrain_plate(ice.solid, options.planes, options.sides);
   if (options.damping > 0) continuum::add_mass_damping(ice.solid, options.damping);
   if (options.held_rim > 0) hold_rim(ice.solid, options.planes, options.held_rim);

@@ -114,16 +114,47 @@ POLYNYA_INLINE T hourglass_share(const Numerics& numerics, const LawType& law, c
   return (1.0 - state.damage) * (1.0 - (1.0 - numerics.hourglass_flowed) * lost);
 }
 
+/// Hourglass stiffness of the undamaged elements, N/m, of the modes 4..7.
+template <class T>
+POLYNYA_INLINE std::array<T, 4> undamaged_stiffness(const ExplicitSolid& solid, std::size_t e) {
+  std::array<T, 4> k;
+  for (std::size_t m = 0; m < 3; ++m) k[m] = load<T>(&solid.hourglass_stiffness[m][e]);
+  k[3] = (1.0 / 3.0) * minimum(minimum(k[0], k[1]), k[2]);
+  return k;
+}
+
+/// What the modes mean as bending: fibres whose strain has the mean square 64 sum_m k_m |G_m|^2/(E V) (hourglass.hpp),
+/// of the shape elastic stress, what damage leaves of it, of the rate strain of the step. Nothing without stiffness.
 template <class LawType, class T>
-POLYNYA_INLINE HourglassInput<T> hourglass_input(const ExplicitSolid& solid, const LawType& law, std::size_t e,
-                                                 const T& mass, const PointState<T>& state, const T& flow,
-                                                 const T& area, const T& inverse_length, const T& wave_speed) {
+POLYNYA_INLINE Spread<T> spread_about_mean(const Numerics& numerics, const LawType& law, const std::array<T, 4>& k,
+                                           const HourglassModes<T>& shape, const HourglassModes<T>& rate,
+                                           const T& inverse_volume, const T& damage, const T& dt) {
+  if (!(numerics.hourglass_stiffness > 0)) return {};
+  const double young = 9 * law.bulk_modulus * law.shear_modulus / (3 * law.bulk_modulus + law.shear_modulus);
+  const T per_stiffness = 64.0 / (young * numerics.hourglass_stiffness) * inverse_volume;
+  return {(1.0 - damage) * young * square_root(T(per_stiffness * weighted_square(k, shape))),
+          dt * square_root(T(per_stiffness * weighted_square(k, rate)))};
+}
+
+/// One step of the law; spread() is asked for by laws that see more than the mean.
+template <class LawType, class T, class SpreadFunction>
+POLYNYA_INLINE T advance_mean_stress(const LawType& law, PointState<T>& state, const SymmetricTensor<T>& strain, T dt,
+                                     const SpreadFunction& spread) {
+  if constexpr (requires { advance_stress(law, state, strain, dt, spread()); })
+    return advance_stress(law, state, strain, dt, spread());
+  else
+    return advance_stress(law, state, strain, dt);
+}
+
+template <class LawType, class T>
+POLYNYA_INLINE HourglassInput<T> hourglass_input(const Numerics& numerics, const LawType& law,
+                                                 const std::array<T, 4>& undamaged, const T& mass,
+                                                 const PointState<T>& state, const T& flow, const T& area,
+                                                 const T& inverse_length, const T& wave_speed) {
   const T rate = (1.0 / 64.0) * mass * wave_speed * inverse_length;
-  HourglassInput<T> in{
-      {}, solid.numerics.hourglass_viscosity * rate, solid.numerics.hourglass_floor * rate, flow * area * (1.0 / 12.0)};
-  const T share = hourglass_share(solid.numerics, law, state, flow);
-  for (std::size_t m = 0; m < 3; ++m) in.stiffness[m] = share * load<T>(&solid.hourglass_stiffness[m][e]);
-  in.stiffness[3] = (1.0 / 3.0) * minimum(minimum(in.stiffness[0], in.stiffness[1]), in.stiffness[2]);
+  HourglassInput<T> in{undamaged, numerics.hourglass_viscosity * rate, flow * area * (1.0 / 12.0)};
+  const T share = hourglass_share(numerics, law, state, flow);
+  for (T& stiffness : in.stiffness) stiffness *= share;
   return in;
 }
 
@@ -179,7 +210,18 @@ POLYNYA_INLINE bool advance_elements(ExplicitSolid& solid, const LawType& law, P
   PointState<T> state = load_state<T>(element, e);
   state.relative_volume = now.volume / reference_volume;
   state.stress = rotated(state.stress, hughes_winget_rotation(gradient, T(dt)));
-  const T flow = advance_stress(law, state, strain_increment(gradient, T(dt)), T(dt));
+
+  HourglassModes<T> natural;
+  const bool irregular = solid.irregular[place.pack] != 0;
+  if (irregular)
+    for (std::size_t m = 0; m < 4; ++m)
+      for (std::size_t j = 0; j < 3; ++j) natural[m][j] = load<T>(&solid.natural_hourglass[place.row(12, 3 * m + j)]);
+  const auto rate = hourglass_rate(v, middle, gradient);
+  const auto stiffness = undamaged_stiffness<T>(solid, e);
+  const T flow = advance_mean_stress(law, state, strain_increment(gradient, T(dt)), T(dt), [&] {
+    const auto shape = beyond_mean_motion(middle, irregular ? &natural : nullptr);
+    return spread_about_mean(numerics, law, stiffness, shape, rate, T(1.0 / half_way.volume), state.damage, T(dt));
+  });
 
   // Viscosity, hourglass control and the nodal forces, at the end of the step.
   const T mass = law.density * reference_volume;
@@ -190,20 +232,15 @@ POLYNYA_INLINE bool advance_elements(ExplicitSolid& solid, const LawType& law, P
   const T speed = wave_speed(law, state);
   const T expansion = gradient[0] + gradient[4] + gradient[8];
   const auto viscous = bulk_viscosity(numerics, expansion, length, speed, density);
-  const auto control = hourglass_input(solid, law, e, mass, state, flow, area, T(area * inverse_volume), speed);
-
-  HourglassModes<T> natural;
-  const bool irregular = solid.irregular[place.pack] != 0;
-  if (irregular)
-    for (std::size_t m = 0; m < 4; ++m)
-      for (std::size_t j = 0; j < 3; ++j) natural[m][j] = load<T>(&solid.natural_hourglass[place.row(12, 3 * m + j)]);
+  const auto control =
+      hourglass_input(numerics, law, stiffness, mass, state, flow, area, T(area * inverse_volume), speed);
 
   Modes<T> hourglass_force{};
   const T stiff_power = add_hourglass_stiffness(control, x, v, T(dt), irregular ? &natural : nullptr, hourglass_force);
   Tensor<T> stress = full_tensor(state.stress);
   for (int i = 0; i < 9; i += 4) stress[i] -= viscous.pressure;
   const T viscous_power =
-      add_hourglass_viscosity(control, x, middle, v, gradient, inverse_volume, hourglass_force, stress);
+      add_hourglass_viscosity(control, x, rate, inverse_volume, hourglass_force, stress);
   Modes<T> force = stress_forces(stress, now);
   for (int m = 1; m < 8; ++m)
     for (int i = 0; i < 3; ++i) force[m][i] += hourglass_force[m][i];

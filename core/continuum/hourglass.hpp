@@ -20,7 +20,7 @@
 ///
 /// Viscosity: on the rate R_m = c_m' - L c_m. The magnitudes of both are capped by the force at which bending would
 /// bring the outer fibre to the flow stress Y, Y A / 12 with A the face area: what a crushed element cannot carry, its
-/// hourglass modes do not carry either.
+/// hourglass modes do not carry either. Laws that ask for it see what the modes hold as a Spread about the mean.
 namespace polynya::continuum {
 
 /// One vector for every mode 4..7.
@@ -31,7 +31,6 @@ template <class T>
 struct HourglassInput {
   std::array<T, 4> stiffness;  ///< k_m, N/m, damage and flow included
   T viscosity;                 ///< N s/m, nodal force per unit 8 |R|
-  T viscosity_floor;           ///< N s/m, left over by the cap
   T allowed;                   ///< N, largest magnitude of the nodal force
 };
 
@@ -39,6 +38,25 @@ template <class T>
 POLYNYA_INLINE T square_of(const HourglassModes<T>& v) {
   T sum = dot(v[0], v[0]);
   for (int m = 1; m < 4; ++m) sum += dot(v[m], v[m]);
+  return sum;
+}
+
+/// R_m, the rate of the modes 4..7 beyond the linear field that turns and stretches with the element.
+template <class T>
+POLYNYA_INLINE HourglassModes<T> hourglass_rate(const Modes<T>& v, const Modes<T>& middle, const Tensor<T>& gradient) {
+  HourglassModes<T> rate;
+  for (int m = 0; m < 4; ++m)
+    for (int i = 0; i < 3; ++i)
+      rate[m][i] = v[m + 4][i] - (gradient[3 * i] * middle[m + 4][0] + gradient[3 * i + 1] * middle[m + 4][1] +
+                                  gradient[3 * i + 2] * middle[m + 4][2]);
+  return rate;
+}
+
+/// Sum of k_m |c_m|^2: N m, or N m/s^2 of a rate.
+template <class T>
+POLYNYA_INLINE T weighted_square(const std::array<T, 4>& stiffness, const HourglassModes<T>& c) {
+  T sum = stiffness[0] * dot(c[0], c[0]);
+  for (int m = 1; m < 4; ++m) sum += stiffness[m] * dot(c[m], c[m]);
   return sum;
 }
 
@@ -89,19 +107,13 @@ POLYNYA_INLINE T add_hourglass_stiffness(const HourglassInput<T>& in, const Mode
 }
 
 /// Adds the viscous part: forces on the modes 4..7, and to `stress` what makes them orthogonal to linear fields.
-/// middle: modes at mid-step. Returns the dissipated power, W.
+/// rate: of hourglass_rate. Returns the dissipated power, W.
 template <class T>
-POLYNYA_INLINE T add_hourglass_viscosity(const HourglassInput<T>& in, const Modes<T>& x, const Modes<T>& middle,
-                                         const Modes<T>& v, const Tensor<T>& gradient, const T& inverse_volume,
-                                         Modes<T>& force, Tensor<T>& stress) {
-  HourglassModes<T> rate;
-  for (int m = 0; m < 4; ++m)
-    for (int i = 0; i < 3; ++i)
-      rate[m][i] = v[m + 4][i] - (gradient[3 * i] * middle[m + 4][0] + gradient[3 * i + 1] * middle[m + 4][1] +
-                                  gradient[3 * i + 2] * middle[m + 4][2]);
+POLYNYA_INLINE T add_hourglass_viscosity(const HourglassInput<T>& in, const Modes<T>& x, const HourglassModes<T>& rate,
+                                         const T& inverse_volume, Modes<T>& force, Tensor<T>& stress) {
   const T square = square_of(rate);
   const T share = share_allowed(T(64.0 * in.viscosity * in.viscosity * square), in.allowed);
-  const T c = 8.0 * maximum(in.viscosity_floor, T(share * in.viscosity));
+  const T c = 8.0 * share * in.viscosity;
   const T per_volume = 8.0 * c * inverse_volume;
   for (int i = 0; i < 3; ++i) {
     for (int m = 0; m < 4; ++m) force[m + 4][i] -= c * rate[m][i];

@@ -128,17 +128,38 @@ POLYNYA_INLINE auto exceeds(const JohnsonHolmquist2& law, const T& trial, const 
   return trial > strength + 1e-12 * law.shear_modulus;
 }
 
+/// What yielding needs to know of a step.
+template <class T>
+struct YieldTrial {
+  T mean;   ///< Pa, equivalent stress of the elastic step
+  T whole;  ///< Pa, root mean square over the element
+  T rate;   ///< 1/s, equivalent strain rate of the mean
+};
+
+/// Plastic strain of a step. Where stress and strain vary about their means the share of the mean strain that flows is
+/// that of the strain's root mean square: no more than all of it, for what varies is not returned to the strength.
+template <class T>
+POLYNYA_INLINE T plastic_increment(const JohnsonHolmquist2& law, const YieldTrial<T>& trial, const T& old_strength,
+                                   const T& dt, const Spread<T>& spread) {
+  const T tiny = T(1e-290), stiffness = T(3.0 * law.shear_modulus);
+  const T of_mean = maximum(T(trial.mean - old_strength), T(0.0)) / stiffness;
+  if (!any(spread.strain > T(0.0))) return of_mean;
+  const T mean = trial.rate * dt;
+  const T share = minimum(T((trial.whole - old_strength) / maximum(T(stiffness * mean), tiny)), T(1.0));
+  return maximum(of_mean, T(share * square_root(T(mean * mean + spread.strain * spread.strain))));
+}
+
 /// Plastic flow of one step: radial return to the strength at the old damage, then damage and bulking. The strength
 /// lost to the damage of a step is returned to in the next one; so the law follows its rate equations where they have a
 /// solution, and fractures within a few steps where the strength falls faster than elastic unloading can follow.
 template <class T>
 void flow_plastically(const JohnsonHolmquist2& law, PointState<T>& state, SymmetricTensor<T>& deviator, const T& mu,
-                      const T& rate, const T& trial, const T& old_strength, T& p) {
+                      const YieldTrial<T>& trial, const T& old_strength, const T& dt, const Spread<T>& spread, T& p) {
   const T zero = T(0.0), one = T(1.0);
-  const auto yields = exceeds(law, trial, old_strength);
-  const auto y = strength(law, p, rate, true, true);
-  const T increment = select(yields, T((trial - old_strength) / (3.0 * law.shear_modulus)), zero);
-  const T scale = select(yields, T(old_strength / maximum(trial, T(1e-290))), one);
+  const auto yields = exceeds(law, trial.whole, old_strength);
+  const auto y = strength(law, p, trial.rate, true, true);
+  const T increment = select(yields, plastic_increment(law, trial, old_strength, dt, spread), zero);
+  const T scale = select(yields, T(old_strength / maximum(trial.whole, T(1e-290))), one);
   for (int c = 0; c < 6; ++c) deviator[c] *= scale;
 
   const T damage = select(yields, grown_damage(y, state.damage, increment), state.damage);
@@ -155,10 +176,13 @@ void flow_plastically(const JohnsonHolmquist2& law, PointState<T>& state, Symmet
 }
 
 /// One step of the law. On entry the stress is the old one, already rotated, and state.relative_volume the new one.
-/// strain: D dt of the step. Returns the flow stress of the step (von Mises measure, Pa).
+/// strain: D dt of the step. Where stress varies about its mean over an element (spread), the element yields when the
+/// root of its mean square reaches the strength, as the resultants of a shell do (Ilyushin 1956; Crisfield 1981), and
+/// damage grows with the root mean square of the plastic strain. Returns the flow stress of the step (von Mises
+/// measure, Pa).
 template <class T>
 POLYNYA_INLINE T advance_stress(const JohnsonHolmquist2& law, PointState<T>& state, const SymmetricTensor<T>& strain,
-                                T dt) {
+                                T dt, const Spread<T>& spread = {}) {
   const T zero = T(0.0), one = T(1.0);
   const T mean_strain = (strain[0] + strain[1] + strain[2]) * (1.0 / 3.0);
   const T mean_stress = (state.stress[0] + state.stress[1] + state.stress[2]) * (1.0 / 3.0);
@@ -174,10 +198,13 @@ POLYNYA_INLINE T advance_stress(const JohnsonHolmquist2& law, PointState<T>& sta
 
   // equivalent_stress of a strain is 3/2 of the equivalent strain sqrt(2/3 e:e).
   const T rate = equivalent_stress(stretching) * (2.0 / 3.0) / maximum(dt, T(1e-290));
-  const T trial = equivalent_stress(deviator);
+  const T mean = equivalent_stress(deviator);
+  T whole = mean;
+  if (any(spread.stress > zero)) whole = square_root(T(mean * mean + spread.stress * spread.stress));
   const auto y = strength(law, p, rate, any(state.damage > zero), false);
   const T flow = y.intact - state.damage * (y.intact - y.fractured);
-  if (any(exceeds(law, trial, flow))) flow_plastically(law, state, deviator, mu, rate, trial, flow, p);
+  if (any(exceeds(law, whole, flow)))
+    flow_plastically(law, state, deviator, mu, YieldTrial<T>{mean, whole, rate}, flow, dt, spread, p);
 
   state.stress = deviator;
   for (int c = 0; c < 3; ++c) state.stress[c] -= p;

@@ -31,4 +31,11 @@ struct PointState {
   T bulking_pressure{0.0};      ///< Pa
 };
 
+/// How far stress and strain lie from their means over an element whose law is asked once: roots of the mean squares.
+template <class T>
+struct Spread {
+  T stress{0.0};  ///< Pa, von Mises measure, elastic
+  T strain{0.0};  ///< equivalent strain of the step
+};
+
 }  // namespace polynya::continuum

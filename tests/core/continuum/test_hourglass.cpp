@@ -120,12 +120,13 @@ TEST(Hourglass, StiffnessFadesWithinTheStrainOfYielding) {
   }
 }
 
-// Every element bent against its neighbours, up to a tenth of its size: what is broken exerts nothing.
+// Every element bent against its neighbours, broken ones by a tenth of their size: what is broken exerts nothing.
 TEST(Hourglass, BrokenBlockCarriesNoLoadInItsHourglassMode) {
   const Law law = johnson_holmquist_2_from_card("ice", card);
   constexpr double slowly = 1e4;  // s: nothing viscous is left to feel
   for (const Integration integration : {Integration::one_point, Integration::full})
     for (const double damage : {0.0, 1.0}) {
+      const double amplitude = damage == 0 ? 1e-7 : 1e-4;  // m; intact ice would break
       Numerics numerics;
       numerics.integration = integration;
       auto solid = make_solid("block", tests::block({4, 4, 4}, {4e-3, 4e-3, 4e-3}), law, numerics);
@@ -134,7 +135,7 @@ TEST(Hourglass, BrokenBlockCarriesNoLoadInItsHourglassMode) {
       for (std::size_t n = 0; n < solid.node_count(); ++n) {
         const double* x = &solid.mesh.nodes[3 * n];
         const long odd = std::lround(1e3 * x[0]) + std::lround(1e3 * x[1]);
-        solid.velocities[3 * n] = (odd % 2 == 0 ? 1e-4 : -1e-4) / slowly;
+        solid.velocities[3 * n] = (odd % 2 == 0 ? amplitude : -amplitude) / slowly;
       }
       advance_positions(solid, slowly);
       internal_forces(solid, slowly);
@@ -160,15 +161,14 @@ TEST(Hourglass, ForceIsCappedByTheFlowStress) {
   internal_forces(far, 0.0);
   internal_forces(fast, 0.0);
   const double flow = strength(law, 0.0, 1.0, false, false).intact;  // stress free but for the mode
-  EXPECT_NEAR(largest_force(far), flow * 1e-6 / 12, 1e-4 * flow * 1e-6 / 12);
-  // The viscous part at 1 km/s: the floor, 1 % of wave speed / length, is all that is left above the cap.
-  const double speed = std::sqrt((8.1254e9 + 4.0 / 3.0 * 4.4444e9) / 900);
-  EXPECT_NEAR(largest_force(fast), 0.01 * 900e-9 / 8 * speed / 1e-3 * 1e3, 1e-3);
+  const double bound = flow * 1e-6 / 12;
+  EXPECT_NEAR(largest_force(far), bound, 1e-4 * bound);
+  EXPECT_NEAR(largest_force(fast), bound, 1e-4 * bound);  // at 1 km/s
 }
 
 TEST(Hourglass, StiffnessGivesBackWhatItTook) {
   const Elastic law{900, 8.13e9, 4.44e9};
-  auto solid = make_solid("element", tests::block({1, 1, 1}, {1e-3, 1e-3, 1e-3}), law, {0, 0, 1, 0, 0});
+  auto solid = make_solid("element", tests::block({1, 1, 1}, {1e-3, 1e-3, 1e-3}), law, {0, 0, 1, 0});
   const auto none = std::vector<double>(24, 0.0);
   const auto mode = bent(law, 0, 1e-7, 0).positions;
   solid.positions = mode;
