@@ -19,6 +19,7 @@ symmetry = "full"
 [run]
 end_time = "0.2 ms"
 frame_interval = "0.1 ms"
+gravity = "1e5 m/s^2"
 [ice]
 %s
 [resolution]
