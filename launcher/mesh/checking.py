@@ -114,8 +114,9 @@ def check_pieces(mesh: Mesh, pairs: np.ndarray, allowed: int) -> None:
     touching = np.intersect1d(mesh.elements[piece == small], mesh.elements[piece != small]).size
     how = (f"hangs on the rest by {touching} node{'s' if touching > 1 else ''} and no face" if touching else
            "is not connected to the rest")
-    raise WrongInput(f"{mesh.element(mine[0])} {'' if len(mine) == 1 else f'and {len(mine) - 1} others '}{how}: {found} "
-                     f"pieces that no face joins; merge coincident nodes, or set ice.mesh_pieces = {found}")
+    others = f"and {len(mine) - 1} others " if len(mine) > 1 else ""
+    raise WrongInput(f"{mesh.element(mine[0])} {others}{how}: {found} pieces that no face joins; merge coincident nodes, or "
+                     f"set ice.mesh_pieces = {found}")
 
 
 def remark_coincident(mesh: Mesh) -> None:
@@ -125,7 +126,8 @@ def remark_coincident(mesh: Mesh) -> None:
     if len(pairs):
         first = mesh.nodes[pairs[:, 0]][np.lexsort(mesh.nodes[pairs[:, 0]].T)[0]]
         mesh.notes.append(f"{mesh.file}: {len(np.unique(pairs[:, 0]))} nodes lie where others lie, the first at "
-                          f"{place(first)}; the faces between them are free, as of a crack: merge them if none is meant")
+                          f"{place(first)}; the faces between them are free, as of a crack: merge them if none is "
+                          "meant")
 
 
 def check_symmetry(mesh: Mesh, planes: list[int]) -> None:

@@ -62,4 +62,4 @@ def write(mesh: Mesh, file: Path) -> None:
         out["element_numbers"] = mesh.numbers.astype("<i8")
         sets = out.create_group("sets")
         for name, nodes in mesh.sets.items():
-            sets[name.replace("/", "_")] = nodes.astype("<i4")
+            sets[name] = nodes.astype("<i4")

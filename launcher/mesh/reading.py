@@ -61,7 +61,9 @@ def read(file: Path, unit: str) -> Mesh:
     numbers = file_numbers(file)
     if numbers is None or len(numbers) != len(elements):
         numbers = np.arange(1, len(elements) + 1)
-    return Mesh(str(file), points * METRES[unit], elements, numbers, {**node_sets(raw), **cell_sets(raw)})
+    # A slash would be a folder in HDF5.
+    sets = {name.replace("/", "_"): nodes for name, nodes in {**node_sets(raw), **cell_sets(raw)}.items()}
+    return Mesh(str(file), points * METRES[unit], elements, numbers, sets)
 
 
 def read_raw(file: Path) -> meshio.Mesh:
@@ -69,7 +71,8 @@ def read_raw(file: Path) -> meshio.Mesh:
         raise WrongInput(f"{file}: unknown kind of mesh; must be Gmsh's .msh or Abaqus' .inp")
     if not file.is_file():
         raise WrongInput(f"{file}: no such file")
-    if file.suffix == ".inp" and len(re.findall(r"^\*NODE\s*(?:,|$)", file.read_text(errors="replace"), re.I | re.M)) > 1:
+    blocks = re.findall(r"^\*NODE\s*(?:,|$)", file.read_text(errors="replace"), re.I | re.M)
+    if file.suffix == ".inp" and len(blocks) > 1:
         raise WrongInput(f"{file}: several *NODE blocks; write all nodes as one block")
     try:
         with contextlib.redirect_stdout(io.StringIO()):  # meshio prints its warnings

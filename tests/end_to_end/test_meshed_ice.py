@@ -1,5 +1,6 @@
-"""Ice whose mesh comes from a file: the same plate as the built-in one, in any order of the file; and what is refused."""
+"""Ice whose mesh comes from a file: the plate that is built in, in any order of the file; and what is refused."""
 
+import json
 import sys
 import unittest
 from pathlib import Path
@@ -29,6 +30,24 @@ ice_fine_radius = "1 m"
 ice_failure = "off"
 conversion = "off"
 """
+STRIKE = """title = "A vehicle strikes a plate"
+symmetry = "quarter"
+[run]
+end = "time"
+end_time = "40 us"
+frame_interval = "40 us"
+[vehicle]
+mass = "5 g"
+speed = "40 m/s"
+nose_position = "-0.1 mm"
+[ice]
+%s
+[resolution]
+cell = "5 mm"
+vehicle_element = "5 mm"
+ice_fine_radius = "1 m"
+"""
+SPEED = "vehicle_speed"
 
 
 def plate():
@@ -82,6 +101,29 @@ class MeshedIce(unittest.TestCase):
                 largest = max(map(abs, built[key]))
                 self.assertGreater(largest, 0)
                 self.assertLess(max(abs(a - b) for a, b in zip(read[key], built[key])), 1e-10 * largest)
+
+    def test_a_vehicle_meets_a_quarter_from_a_file_as_it_meets_the_built_in_one(self):
+        """Ice that breaks: the coupler takes surfaces in the order of the nodes, so some digits less remain."""
+        keys = ('length = "60 mm"\nwidth = "60 mm"\nthickness = "10 mm"\nsides = "non_reflecting"\n',
+                mesh_keys("quarter.msh", 'rim = "non_reflecting"'))
+        block = Block((6, 6, 2), (30, 30, 10)).name_nodes("rim", lambda x, y, z: x == 30 or y == 30).shuffle()
+        speeds, broken = [], []
+        with scratch() as folder:
+            Path(folder, "quarter.msh").write_text(block.msh4())
+            for name, ice in zip(("built", "read"), keys):
+                Path(folder, f"{name}.toml").write_text(STRIKE % ice)
+                process = polynya("run", f"{folder}/{name}.toml", "--out", f"{folder}/{name}", "--json",
+                                  "--no-pictures", "--threads", "1")
+                summary_of(process)
+                structure = series(f"{folder}/{name}/series/coupler.csv")
+                speeds.append(structure[SPEED])
+                broken.append(json.loads(Path(folder, name, "logs", "ice.json").read_text())["counts"]["particles"])
+        lost = speeds[0][0] - speeds[0][-1]
+        difference = max(abs(a - b) for a, b in zip(*speeds))
+        print(f"the vehicle loses {lost:.4g} m/s, {broken} particles; the two differ by {difference:.1e} m/s")
+        self.assertGreater(lost, 0.1)
+        self.assertEqual(len(speeds[0]), len(speeds[1]))
+        self.assertLess(difference, 1e-6 * lost)
 
     def test_wrong_words_and_wrong_files_are_refused_in_one_line(self):
         with scratch() as folder:
