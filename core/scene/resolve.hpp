@@ -10,7 +10,7 @@ namespace polynya::scene {
 struct ResolveOptions {
   std::string level;                  ///< "quick", "standard" or "fine"; empty: quick
   std::vector<std::string> settings;  ///< "key=value", applied after the level, the last one wins
-  std::string mesh;                   ///< JSON object with the facts of the ice's mesh file, as the launcher found them
+  std::string mesh = {};              ///< JSON object with the facts of the ice's mesh file, as the launcher found them
 };
 
 /// What must be known of a mesh file before the scene can be resolved.

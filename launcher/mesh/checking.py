@@ -115,8 +115,8 @@ def check_pieces(mesh: Mesh, pairs: np.ndarray, allowed: int) -> None:
     how = (f"hangs on the rest by {touching} node{'s' if touching > 1 else ''} and no face" if touching else
            "is not connected to the rest")
     others = f"and {len(mine) - 1} others " if len(mine) > 1 else ""
-    raise WrongInput(f"{mesh.element(mine[0])} {others}{how}: {found} pieces that no face joins; merge coincident nodes, or "
-                     f"set ice.mesh_pieces = {found}")
+    raise WrongInput(f"{mesh.element(mine[0])} {others}{how}: {found} pieces that no face joins; merge coincident "
+                     f"nodes, or set ice.mesh_pieces = {found}")
 
 
 def remark_coincident(mesh: Mesh) -> None:

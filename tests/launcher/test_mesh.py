@@ -90,7 +90,7 @@ class Reading(MeshTest):
         self.assertIn("1 nodes belong to no hexahedron and are left out, the first at (9, 8, 7) mm", mesh.notes[0])
 
     def test_an_open_seam_is_remarked_with_its_count(self):
-        """Two elements of a row of four by two share their face by nodes in one place only: a crack of half the width."""
+        """The middle of four by two elements is cut on half its width by nodes that lie in one place: a crack."""
         block = Block((4, 2, 1), (4, 2, 1))
         seam = {n: n + 1000 for n, p in block.points.items() if p[0] == 2 and p[1] == 0}
         block.points.update({new: block.points[old] for old, new in seam.items()})
@@ -190,7 +190,8 @@ class Refusing(MeshTest):
 
     def test_a_mesh_that_does_not_begin_at_the_plane_of_symmetry(self):
         for low in (-1.0, 0.5):
-            self.refused(Block(origin=(0, low, 0)).inp(), f"begins at y = {low:g} mm", 'symmetry = "full"', planes=[0, 1])
+            self.refused(Block(origin=(0, low, 0)).inp(), f"begins at y = {low:g} mm", 'symmetry = "full"',
+                         planes=[0, 1])
         mesh = self.load(Block(origin=(1e-9, 0, 0)).inp(), planes=[0])
         self.assertEqual(mesh.nodes[:, 0].min(), 0.0)
 
