@@ -127,6 +127,7 @@ class MeshedIce(unittest.TestCase):
         self.assertLess(difference, 1e-10 * lost)
 
     def test_the_example_is_read_and_counted(self):
+        """It lies beside its scene, wherever the program is started."""
         told = summary_of(polynya("explain", "examples/ice_disc", "--json"))
         self.assertEqual((told["estimate"]["ice_elements"], told["symmetry"]), (576, "quarter"))
 
