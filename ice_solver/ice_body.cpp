@@ -41,6 +41,7 @@ void renew_list(IceBody& ice) {
 }
 
 continuum::HexMesh mesh_of(const IceOptions& options) {
+  if (options.mesh) return *options.mesh;
   if (!options.ball) return plate_mesh(options.x, options.y, options.z);
   const BallOptions& ball = *options.ball;
   return ball_mesh(ball.radius, ball.element, ball.lowest + ball.radius, options.planes);
@@ -57,7 +58,9 @@ IceBody make_ice(const IceOptions& options) {
   IceBody ice;
   ice.options = options;
   ice.solid = continuum::make_solid("ice", mesh_of(options), options.law, options.numerics);
+  hold_supports(ice.solid, options.supports);
   constrain_plate(ice.solid, options.planes, options.sides);
+  release_waves(ice.solid, options.supports);
   if (options.damping > 0) continuum::add_mass_damping(ice.solid, options.damping);
   if (options.held_rim > 0) hold_rim(ice.solid, options.planes, options.held_rim);
   if (options.ball)

@@ -37,9 +37,11 @@ struct IceOptions {
   continuum::Numerics numerics;
   SymmetryPlanes planes;
   Sides sides = Sides::free;
-  double damping = 0;               ///< 1/s, of all motion: force over mass and velocity
-  double held_rim = 0;              ///< m, width of the rim of the upper face that is held
-  std::optional<BallOptions> ball;  ///< then the grid lines mean nothing
+  double damping = 0;                      ///< 1/s, of all motion: force over mass and velocity
+  double held_rim = 0;                     ///< m, width of the rim of the upper face that is held
+  std::optional<BallOptions> ball;         ///< then the grid lines mean nothing
+  std::optional<continuum::HexMesh> mesh;  ///< likewise; it lies where its nodes say, on planes of symmetry exactly
+  std::vector<Support> supports;           ///< of nodes of that mesh
   bool conversion = true;
   Debris debris = Debris::particles;
   double critical_strain = 0.35;
@@ -110,7 +112,7 @@ struct IceBody {
                         pair_force, nodal_force, books, topology_changed, watch)
 };
 
-/// A plate at rest. Throws std::invalid_argument on bad grid lines.
+/// The ice at rest. Throws std::invalid_argument on bad grid lines, or a bad element of a mesh.
 IceBody make_ice(const IceOptions& options);
 
 /// Gives the plate the stress that balances loads on its nodes ([n][3], N) and its weight, but for the rigid

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "core/exchange/replay_options.hpp"
 #include "core/results/durable_file.hpp"
 #include "core/results/process_report.hpp"
+#include "ice_solver/imported_mesh.hpp"
 #include "ice_solver/run.hpp"
 #include "ice_solver/scene_options.hpp"
 
@@ -43,6 +45,17 @@ void log_law(const continuum::Law& law, const std::string& card) {
   for (const double rate : {1.0, 10.0, 100.0, 1e3, 1e4})
     spdlog::info("{}: unconfined compressive strength {:.3g} MPa at {:g}/s", card,
                  1e-6 * continuum::unconfined_compressive_strength(*brittle, rate), rate);
+}
+
+/// The ice of the scene; its mesh lies beside the scene, where it has one from a file.
+ice::IceBody make_ice(const Options& options, const scene::Scene& scene) {
+  ice::IceOptions ice_options = ice::options_from_scene(scene);
+  if (!scene.ice->mesh) return ice::make_ice(ice_options);
+  const auto file = std::filesystem::absolute(options.scene).parent_path() / "ice_mesh.h5";
+  const results::MeshFile mesh = ice::use_imported_mesh(ice_options, *scene.ice->mesh, file.string());
+  ice::IceBody ice = ice::make_ice(ice_options);
+  spdlog::info("{}: {}", scene.ice->mesh->file, ice::element_that_sets_the_step(ice, mesh));
+  return ice;
 }
 
 void write_report(const Options& options, const ice::IceRun& run, const exchange::Participant* participant) {
@@ -117,7 +130,7 @@ int main(int argc, char** argv) {
       run.checkpoints = {options.out, options.name, "ice_solver", scene::to_json(run.scene).dump(), options.resume};
     if (!options.resume.empty()) run.checkpoints.check();
     start_log(options);
-    run.ice = ice::make_ice(ice::options_from_scene(run.scene));
+    run.ice = make_ice(options, run.scene);
     log_law(run.ice.solid.law, run.scene.ice->material);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "ice_solver: %s\n", error.what());

@@ -89,6 +89,16 @@ void constrain_plate(continuum::ExplicitSolid& plate, SymmetryPlanes planes, Sid
   }
 }
 
+void hold_supports(continuum::ExplicitSolid& body, std::span<const Support> supports) {
+  for (const Support& support : supports)
+    for (const std::int32_t node : support.nodes) body.fixed[static_cast<std::size_t>(node)] |= support.components;
+}
+
+void release_waves(continuum::ExplicitSolid& body, std::span<const Support> supports) {
+  for (const Support& support : supports)
+    if (support.non_reflecting) continuum::add_non_reflecting_boundary(body, support.nodes);
+}
+
 void hold_rim(continuum::ExplicitSolid& plate, SymmetryPlanes planes, double width) {
   double top = plate.mesh.nodes[2];
   for (std::size_t n = 0; n < plate.node_count(); ++n) top = std::max(top, plate.mesh.nodes[3 * n + 2]);

@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,18 @@ void constrain_plate(continuum::ExplicitSolid& plate, SymmetryPlanes planes, Sid
 
 /// Holds the nodes of the upper face that lie within `width` (m) of the sides that are not symmetry planes.
 void hold_rim(continuum::ExplicitSolid& plate, SymmetryPlanes planes, double width);
+
+/// What holds a set of nodes of a mesh: components of velocity that stay 0 (bits 0, 1, 2: x, y, z), or waves leave
+/// through the faces whose four nodes are in the set.
+struct Support {
+  std::vector<std::int32_t> nodes;
+  std::uint8_t components = 0;
+  bool non_reflecting = false;
+};
+
+void hold_supports(continuum::ExplicitSolid& body, std::span<const Support> supports);
+/// The non-reflecting ones. Hold all that is held first.
+void release_waves(continuum::ExplicitSolid& body, std::span<const Support> supports);
 
 /// The symmetry planes as the surface extraction wants them: faces on them cannot be touched.
 std::vector<continuum::Plane> excluded_planes(SymmetryPlanes planes);

@@ -33,19 +33,25 @@ double element_size(const scene::GridLines& lines) {
   return std::cbrt(at_axis(lines.x) * at_axis(lines.y) * (lines.z[1] - lines.z[0]));
 }
 
+/// Of a mesh from a file, m: that of its mean element.
+double mean_element_size(const scene::IceMesh& mesh) {
+  return std::cbrt(mesh.volume / static_cast<double>(mesh.elements));
+}
+
 }  // namespace
 
 IceOptions options_from_scene(const scene::Scene& scene) {
   if (!scene.ice) throw std::invalid_argument("the scene has no ice: nothing to do for the ice solver");
   const scene::Ice& ice = *scene.ice;
   const scene::MaterialCard& card = scene.material(ice.material);
-  const scene::GridLines lines = scene::ice_grid_lines(scene);
+  const scene::GridLines lines = ice.mesh ? scene::GridLines{} : scene::ice_grid_lines(scene);
   IceOptions options;
   options.x = lines.x, options.y = lines.y, options.z = lines.z;
   options.law = continuum::law_from_card(card.name, card.law, card.values);
   if (!scene.effect("ice_failure")) options.law = continuum::elastic_part(options.law);
   if (scene.effect("damage_regularisation"))
-    options.law = continuum::regularised(std::get<continuum::JohnsonHolmquist2>(options.law), element_size(lines));
+    options.law = continuum::regularised(std::get<continuum::JohnsonHolmquist2>(options.law),
+                                         ice.mesh ? mean_element_size(*ice.mesh) : element_size(lines));
   options.planes.x = scene.symmetry == scene::Symmetry::quarter;
   options.planes.y = scene.symmetry != scene::Symmetry::full;
   options.sides = ice.bending ? Sides::free : sides_from_name(ice.sides);

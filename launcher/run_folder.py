@@ -14,8 +14,9 @@ from launcher import ROOT, WrongInput
 # What a run consists of. Nothing else in the folder is ever touched.
 RECORD = "record"
 CHECKPOINTS = "checkpoints"
+ICE_MESH = "ice_mesh.h5"
 PARTS = ("series", "fields", "logs", "pictures", "replay", RECORD, CHECKPOINTS, "summary.json", "scene.json",
-         "vehicle_surface.json")
+         "vehicle_surface.json", ICE_MESH)
 SUMMARIES = "*_summary.json"
 ASIDE = ".before"  # what a run that goes on replaces, until its programs have taken up the state
 LOCK = ".lock"

@@ -3,9 +3,14 @@ from __future__ import annotations
 
 import json
 import subprocess
+import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from launcher import ROOT, WRONG_INPUT, Failure, WrongInput, build, swap
+
+if TYPE_CHECKING:
+    from launcher.mesh.reading import Mesh
 
 SCENE_FILE = "scene.toml"
 RESOLVED = "scene.json"
@@ -28,26 +33,43 @@ def candidates(start: Path) -> list[Path]:
 def resolve(file: Path, level: str | None, settings: list[str], explain: bool = False) -> dict:
     """The resolved scene, all in SI, programs of participants found; `explain` adds an estimate of size and cost.
 
-    The resolver's own sentence and exit code come through when it refuses."""
-    program = build.program_folder() / "resolve_scene"
-    command = [str(program), str(file)] + (["--explain"] if explain else [])
-    if level:
-        command += ["--level", level]
+    The resolver's own sentence and exit code come through when it refuses. The mesh of a file is read on the way."""
+    return resolve_with_mesh(file, level, settings, explain)[0]
+
+
+def resolve_with_mesh(file: Path, level: str | None, settings: list[str], explain: bool = False
+                      ) -> tuple[dict, Mesh | None]:
+    """The same and the ice's mesh, if the scene takes it from a file; what is to be said of it goes to the user."""
+    words = [str(file)] + (["--explain"] if explain else []) + (["--level", level] if level else [])
     for setting in settings:
-        command += ["--set", setting]
+        words += ["--set", setting]
+    scene, mesh = ask_resolver(words), None
+    if "wanted_mesh" in scene:
+        from launcher.mesh import importing  # meshio and scipy take a moment to load: only now
+
+        mesh = importing.load(scene["wanted_mesh"])
+        scene = ask_resolver([*words, "--mesh", json.dumps(importing.facts(mesh))])
+        for remark in importing.remarks(mesh, scene):
+            print(f"polynya: {remark}", file=sys.stderr)
+    swap.settle(scene, file.parent, settings)
+    return scene, mesh
+
+
+def ask_resolver(words: list[str]) -> dict:
+    """What `resolve_scene` writes; its own sentence when it refuses."""
+    program = build.program_folder() / "resolve_scene"
     try:
-        result = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        result = subprocess.run([str(program), *words], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                                check=False)
     except OSError as error:
         raise Failure(f"{program}: {error.strerror}") from None
     if result.returncode != 0:
         sentence = result.stderr.strip() or f"resolve_scene ended with exit code {result.returncode}"
         raise (WrongInput if result.returncode == WRONG_INPUT else Failure)(sentence.removeprefix("resolve_scene: "))
     try:
-        scene = json.loads(result.stdout)
+        return json.loads(result.stdout)
     except ValueError as error:
         raise Failure(f"resolve_scene wrote something that is not JSON: {error}") from None
-    swap.settle(scene, file.parent, settings)
-    return scene
 
 
 def refuse_what_does_not_fit(scene: dict) -> None:

@@ -174,6 +174,8 @@ RemovedElement remove_element(ExplicitSolid& solid, std::size_t element);
 
 /// Adds the nodes of a plane boundary (living elements' faces on it) to the damped nodes. Fix components first.
 void add_non_reflecting_boundary(ExplicitSolid& solid, const Plane& plane);
+/// The same for the free faces, plane or not, whose four nodes are all among `nodes`; each has its own normal.
+void add_non_reflecting_boundary(ExplicitSolid& solid, std::span<const std::int32_t> nodes);
 /// Damps all nodes by a force `rate` (1/s) x mass x velocity against it. Its work is booked with what leaves through
 /// non-reflecting boundaries. Fix components first.
 void add_mass_damping(ExplicitSolid& solid, double rate);

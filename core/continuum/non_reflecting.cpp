@@ -1,4 +1,5 @@
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -80,6 +81,36 @@ void add_non_reflecting_boundary(ExplicitSolid& solid, const Plane& plane) {
       solid.damped.damping[6 * entry + c] +=
           rho * area *
           ((i == j ? shear_speed : 0.0) + (normal_speed - shear_speed) * plane.normal[i] * plane.normal[j]);
+    }
+  }
+}
+
+void add_non_reflecting_boundary(ExplicitSolid& solid, std::span<const std::int32_t> nodes) {
+  const double rho = density(solid.law), normal_speed = longitudinal_wave_speed(solid.law),
+               shear_speed = shear_wave_speed(solid.law);
+  std::vector<std::uint8_t> chosen(solid.node_count(), 0);
+  for (const std::int32_t n : nodes) chosen[n] = 1;
+  std::map<std::int32_t, std::size_t> known = damped_entries(solid);
+  const auto neighbours = face_neighbours(solid.mesh);
+  const auto node = [&](std::int32_t n) { return Eigen::Map<const Eigen::Vector3d>(&solid.mesh.nodes[3 * n]); };
+  const int row[] = {0, 1, 2, 0, 1, 2}, column[] = {0, 1, 2, 1, 2, 0};
+  for (std::size_t slot = 0; slot < neighbours.size(); ++slot) {
+    if (neighbours[slot] >= 0 || solid.element.alive[slot / 6] == 0) continue;
+    std::array<std::int32_t, 4> corner;
+    for (std::size_t k = 0; k < 4; ++k) corner[k] = solid.mesh.elements[8 * (slot / 6) + element_faces[slot % 6][k]];
+    if (std::any_of(corner.begin(), corner.end(), [&](std::int32_t n) { return chosen[n] == 0; })) continue;
+    const Eigen::Vector3d twice =
+        (node(corner[2]) - node(corner[0])).cross(Eigen::Vector3d(node(corner[3]) - node(corner[1])));
+    const double area = 0.5 * twice.norm();
+    const Eigen::Vector3d normal = twice.normalized();
+    for (const std::int32_t n : corner) {
+      const std::size_t entry = damped_entry(solid, known, n);
+      for (int c = 0; c < 6; ++c) {
+        const int i = row[c], j = column[c];
+        if ((solid.fixed[n] >> i & 1) || (solid.fixed[n] >> j & 1)) continue;
+        solid.damped.damping[6 * entry + c] +=
+            0.25 * rho * area * ((i == j ? shear_speed : 0.0) + (normal_speed - shear_speed) * normal[i] * normal[j]);
+      }
     }
   }
 }

@@ -97,17 +97,25 @@ Decision debris_displacement(const Scene& scene) {
   return {false, "particles do not feel the water they would push: room of broken ice goes to the water at once"};
 }
 
+/// Whether waves leave through named faces of a mesh from a file.
+bool has_open_faces(const Ice& ice) {
+  return ice.mesh && std::any_of(ice.mesh->supports.begin(), ice.mesh->supports.end(),
+                                 [](const auto& support) { return support.second == "non_reflecting"; });
+}
+
 Decision non_reflecting(const Scene& scene) {
-  const bool ice = scene.ice && scene.ice->sides == "non_reflecting";
+  const bool ice = scene.ice && (scene.ice->sides == "non_reflecting" || has_open_faces(*scene.ice));
   const bool fluid = scene.fluid && !scene.fluid->tube && scene.fluid->outer_boundary == "non_reflecting";
   if (ice && fluid) return {true, "waves leave through the sides of the ice and the bounds of the fluid"};
   if (ice) return {true, "waves leave through the sides of the ice"};
   if (fluid) return {true, "waves leave through the bounds of the fluid"};
-  return impossible("neither ice.sides nor fluid.outer_boundary is non_reflecting");
+  return impossible("none of ice.sides, ice.supports and fluid.outer_boundary is non_reflecting");
 }
 
 void make_reflecting(Scene& scene) {
   if (scene.ice && scene.ice->sides == "non_reflecting") scene.ice->sides = "free";
+  if (scene.ice && scene.ice->mesh)
+    std::erase_if(scene.ice->mesh->supports, [](const auto& support) { return support.second == "non_reflecting"; });
   if (scene.fluid) scene.fluid->outer_boundary = "wall";
 }
 

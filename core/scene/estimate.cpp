@@ -51,6 +51,12 @@ void add_vehicle(const Scene& scene, Estimate& e) {
 }
 
 void add_ice(const Scene& scene, Estimate& e) {
+  if (const auto& mesh = scene.ice->mesh) {
+    e.ice_elements = static_cast<std::size_t>(mesh->elements);
+    e.nodes += static_cast<std::size_t>(mesh->nodes);
+    e.ice_step = scene.run.step_factor * mesh->thinnest / sound_speed(scene.material(scene.ice->material));
+    return;
+  }
   const GridLines lines = ice_grid_lines(scene);
   e.ice_elements = lines.cells();
   e.nodes += lines.nodes();
@@ -89,7 +95,9 @@ double triangles(const Scene& scene, const Estimate& e) {
     count +=
         2 * pi * scene.vehicle->diameter * scene.vehicle->length / (size * size) * modelled_fraction(scene.symmetry);
   }
-  if (scene.ice) {
+  if (scene.ice && scene.ice->mesh) {
+    count += 2 * static_cast<double>(scene.ice->mesh->boundary_faces);
+  } else if (scene.ice) {
     const auto layers = static_cast<double>(ice_grid_lines(scene).z.size() - 1);
     count += 4 * static_cast<double>(e.ice_elements) / layers;
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/scene/resolve.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/values.hpp"
 
@@ -17,7 +18,12 @@ Symmetry natural_symmetry(const Values& values);
 void check_start(const Values& values, const Scene& scene);
 /// Checks the hull against its material; needs the card.
 void check_hull(const Values& values, const Vehicle& vehicle, const MaterialCard& card);
-Ice read_ice(const Values& values);
+/// mesh: facts of the ice's mesh file (JSON), where the scene names one.
+Ice read_ice(const Values& values, const std::string& mesh);
+/// Fills in the mesh of a file and its box; ice without a file: nothing.
+void read_ice_mesh(const Values& values, const std::string& facts, Ice& ice);
+/// All of it but the planes of symmetry.
+WantedMesh read_wanted_mesh(const Values& values);
 Tube read_tube(const Values& values);
 /// Fills scene.fluid with the tank and its column.
 void read_dam(const Values& values, Scene& scene);

@@ -148,6 +148,7 @@ Symmetry symmetry_of(const Values& values, const std::string& wish_for_effect) {
   }
   if (wish_for_effect == "off") return Symmetry::full;
   if (name == "auto" && values.has("body")) return symmetry_of_bodies(values);
+  if (name == "auto" && values.is_given("ice.mesh")) return Symmetry::full;
   if (name == "auto") return values.has("vehicle") ? natural_symmetry(values) : Symmetry::quarter;
   return name == "full" ? Symmetry::full : name == "half" ? Symmetry::half : Symmetry::quarter;
 }
@@ -170,7 +171,7 @@ void read_participants(const Values& values, Scene& scene) {
   if (scene.fluid) add("fluid");
 }
 
-void read_parts(const Values& values, Scene& scene) {
+void read_parts(const Values& values, const ResolveOptions& options, Scene& scene) {
   scene.contact.friction = values.number("contact.friction");
   scene.contact.stiffness_factor = values.number("contact.stiffness_factor");
   scene.contact.damping = values.number("contact.damping");
@@ -178,7 +179,7 @@ void read_parts(const Values& values, Scene& scene) {
   scene.contact.edges = values.text("contact.edges");
   scene.overlap.method = values.text("overlap.method");
   if (values.has("vehicle")) scene.vehicle = read_vehicle(values);
-  if (values.has("ice")) scene.ice = read_ice(values);
+  if (values.has("ice")) scene.ice = read_ice(values, options.mesh);
   if (scene.vehicle) check_hull(values, *scene.vehicle, scene.material(scene.vehicle->material));
   if (scene.vehicle) place_vehicle(values, scene);
   read_run(values, scene);
@@ -214,13 +215,31 @@ std::string case_name(const std::filesystem::path& file) {
   return file.filename() == "scene.toml" ? folder : file.stem().string();
 }
 
+/// The scene file with level and settings, and the level's name.
+Document composed(const std::filesystem::path& path, const ResolveOptions& options, std::string& level) {
+  Document document = read_document(std::filesystem::is_directory(path) ? path / "scene.toml" : path);
+  level = apply_level(document, options.level);
+  for (const auto& setting : options.settings) merge(document, read_setting(setting));
+  return document;
+}
+
 }  // namespace
 
+std::optional<WantedMesh> wanted_mesh(const std::filesystem::path& path, const ResolveOptions& options) {
+  std::string level;
+  const Document document = composed(path, options, level);
+  const Values values(document);
+  if (!values.is_given("ice.mesh") || !options.mesh.empty()) return std::nullopt;
+  const Symmetry symmetry = symmetry_of(values, values.text("effects.symmetry"));
+  WantedMesh wanted = read_wanted_mesh(values);
+  if (symmetry == Symmetry::quarter) wanted.planes.push_back(0);
+  if (symmetry != Symmetry::full) wanted.planes.push_back(1);
+  return wanted;
+}
+
 Scene resolve(const std::filesystem::path& path, const ResolveOptions& options) {
-  Document document = read_document(std::filesystem::is_directory(path) ? path / "scene.toml" : path);
   Scene scene;
-  scene.level = apply_level(document, options.level);
-  for (const auto& setting : options.settings) merge(document, read_setting(setting));
+  Document document = composed(path, options, scene.level);
   const Values values(document);
   check_sections(document, values);
   scene.name = case_name(document.file);
@@ -228,7 +247,7 @@ Scene resolve(const std::filesystem::path& path, const ResolveOptions& options) 
   load_materials(document, values, scene);
   const auto request = effect_requests(values);
   scene.symmetry = symmetry_of(values, request.requested.at("symmetry"));
-  read_parts(values, scene);
+  read_parts(values, options, scene);
   try {
     decide_effects(scene, request);
   } catch (const ImpossibleEffect& error) {

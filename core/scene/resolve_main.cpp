@@ -28,6 +28,10 @@ void write(const std::string& text, const std::string& output) {
 }
 
 int run(const std::string& scene, const ResolveOptions& options, const std::string& output, bool explain) {
+  if (const auto wanted = wanted_mesh(scene, options)) {
+    write(nlohmann::json{{"wanted_mesh", to_json(*wanted)}}.dump(2), output);
+    return 0;
+  }
   const Scene resolved = resolve(scene, options);
   auto json = to_json(resolved);
   const auto folder = std::filesystem::path(output).parent_path();
@@ -48,6 +52,8 @@ int main(int argc, char** argv) {
   app.add_option("--set", options.settings, "key=value, e.g. vehicle.speed=\"60 m/s\"; may be repeated")
       ->expected(1)
       ->take_all();
+  app.add_option("--mesh", options.mesh,
+                 "facts of ice.mesh (JSON); without them the answer to a scene with such a mesh is {wanted_mesh}");
   app.add_option("--output", output, "file to write (standard output if not given)");
   app.add_flag("--explain", explain, "add an estimate of size, time, memory and disk");
   app.add_flag("--keys", keys, "print the table of all keys of a scene file, and stop");

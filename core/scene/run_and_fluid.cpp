@@ -100,6 +100,7 @@ void read_resolution(const Values& values, Scene& scene) {
   if (scene.vehicle && 2 * r.fine_radius < scene.vehicle->diameter)
     values.fail("resolution.fine_radius", "must be at least the vehicle's radius");
   const std::string element = values.given("resolution.ice_element") ? "resolution.ice_element" : "resolution.cell";
+  if (scene.ice && scene.ice->mesh) return;
   if (scene.ice && r.ice_element > scene.ice->thickness)
     values.fail(element, "the ice element must not exceed ice.thickness");
   if (scene.ice && scene.ice->thickness / r.ice_element > largest_cells_across)

@@ -96,6 +96,18 @@ struct Ball {
   double speed = 0;     ///< m/s, downward
 };
 
+/// Hexahedra from a file. The launcher reads it into RUN/ice_mesh.h5 (core/results/mesh_file.hpp); the facts are its.
+struct IceMesh {
+  std::string file;               ///< full path
+  std::string unit;               ///< of its coordinates: "m", "mm", ...
+  long pieces = 1;                ///< without a common face that it may fall into
+  std::vector<double> low, high;  ///< [3] m, corners of its box
+  long elements = 0, nodes = 0, boundary_faces = 0;
+  double volume = 0;                            ///< m^3, of the modelled part
+  double thinnest = 0;                          ///< m, smallest volume over largest face of an element
+  std::map<std::string, std::string> supports;  ///< by the name of a set: "x", "xyz", ... or "non_reflecting"
+};
+
 struct Ice {
   double length = 0, width = 0, thickness = 0;  ///< m, of the full plate (x, y, z)
   double lower_face = 0;                        ///< m, z of the lower face
@@ -109,6 +121,7 @@ struct Ice {
   std::string integration;  ///< points per element: "one_point" or "full" (2 x 2 x 2)
   std::optional<Bending> bending;
   std::optional<Ball> ball;
+  std::optional<IceMesh> mesh;  ///< then the sizes are those of its box, mirrored at x = 0 and y = 0
 };
 
 /// One side of a shock tube along x.

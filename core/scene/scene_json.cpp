@@ -61,13 +61,22 @@ void members(Part& p, Visit&& visit) {
 }
 
 template <class Part, class Visit>
+requires std::is_same_v<std::remove_const_t<Part>, IceMesh>
+void members(Part& p, Visit&& visit) {
+  visit("file", p.file), visit("unit", p.unit), visit("pieces", p.pieces), visit("low", p.low);
+  visit("high", p.high), visit("elements", p.elements), visit("nodes", p.nodes);
+  visit("boundary_faces", p.boundary_faces), visit("volume", p.volume), visit("thinnest", p.thinnest);
+  visit("supports", p.supports);
+}
+
+template <class Part, class Visit>
 requires std::is_same_v<std::remove_const_t<Part>, Ice>
 void members(Part& p, Visit&& visit) {
   visit("length", p.length), visit("width", p.width), visit("thickness", p.thickness);
   visit("lower_face", p.lower_face), visit("material", p.material), visit("critical_strain", p.critical_strain);
   visit("sides", p.sides), visit("damping", p.damping), visit("held_rim", p.held_rim);
   visit("start", p.start), visit("particles", p.particles), visit("integration", p.integration);
-  visit("bending", p.bending), visit("ball", p.ball);
+  visit("bending", p.bending), visit("ball", p.ball), visit("mesh", p.mesh);
 }
 
 template <class Part, class Visit>

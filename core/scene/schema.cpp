@@ -125,12 +125,21 @@ std::vector<KeyRule> solid_rules() {
       positive("ice.width", dim::length, "200 mm", "along y, of the full plate"),
       positive("ice.thickness", dim::length, "10 mm", "along z"),
       number("ice.lower_face", dim::length, "0", "z of the lower face"),
+      text("ice.mesh", "none",
+           "hexahedra from a file of Gmsh (.msh) or Abaqus (.inp), relative to the scene, instead of length, width, "
+           "thickness and lower_face; it lies where its coordinates say"),
+      choice("ice.mesh_unit", {"none", "m", "cm", "mm", "um", "in", "ft"}, "none",
+             "unit of its coordinates; must be given with mesh"),
+      integer("ice.mesh_pieces", "1", "parts without a common face that the mesh may fall into", 1),
+      text("ice.supports.NAME", "none",
+           "what holds the nodes of NAME, a set of nodes or elements or a physical group of the mesh: components "
+           "such as \"z\" or \"xyz\"; or \"non_reflecting\": waves leave through its faces"),
       text("ice.material", "ice.paper", "card, law johnson_holmquist_2, j2_plastic or elastic"),
       positive("ice.critical_strain", dim::none, "0.35", "effective strain at which an element becomes a particle"),
       choice(
           "ice.sides", {"auto", "non_reflecting", "free", "clamped", "clamped_ends"}, "auto",
           "lateral faces; clamped_ends: held at the ends along x, sliding in the faces across y (plane strain); auto: "
-          "non_reflecting, free for a beam"),
+          "non_reflecting, free for a beam or a mesh from a file, where it means faces in the sides of its box"),
       number("ice.damping", dim::frequency, "0",
              "of all motion of a plate that is to come to rest: force over mass and velocity; not beside a vehicle", 0),
       number("ice.held_rim", dim::length, "0",
@@ -314,10 +323,12 @@ const std::vector<KeyRule>& schema() {
 }
 
 std::string general_path(const std::string& path) {
-  const std::string named = "body.";
-  if (!path.starts_with(named) || path.size() == named.size()) return path;
-  const auto dot = path.find('.', named.size());
-  return named + "NAME" + (dot == std::string::npos ? "" : path.substr(dot));
+  for (const std::string named : {"body.", "ice.supports."}) {
+    if (!path.starts_with(named) || path.size() == named.size()) continue;
+    const auto dot = path.find('.', named.size());
+    return named + "NAME" + (dot == std::string::npos ? "" : path.substr(dot));
+  }
+  return path;
 }
 
 const KeyRule* find_rule(const std::string& path) {

@@ -103,11 +103,12 @@ void place_vehicle(const Values& values, Scene& scene) {
     values.fail("vehicle.diameter", "must be below ice.length and ice.width");
 }
 
-Ice read_ice(const Values& values) {
+Ice read_ice(const Values& values, const std::string& mesh) {
   Ice ice;
   ice.length = values.number("ice.length"), ice.width = values.number("ice.width");
   ice.thickness = values.number("ice.thickness");
   ice.lower_face = values.number("ice.lower_face");
+  read_ice_mesh(values, mesh, ice);
   ice.material = values.text("ice.material");
   ice.critical_strain = values.number("ice.critical_strain");
   ice.particles = values.text("ice.particles");
@@ -129,7 +130,7 @@ Ice read_ice(const Values& values) {
     ice.bending = b;
   }
   ice.sides = values.text("ice.sides");
-  if (ice.sides == "auto") ice.sides = ice.bending || ice.ball ? "free" : "non_reflecting";
+  if (ice.sides == "auto") ice.sides = ice.bending || ice.ball || ice.mesh ? "free" : "non_reflecting";
   ice.start = values.text("ice.start");
   if (ice.start == "equilibrium" && (!values.has("water") || ice.ball || ice.bending))
     values.fail("ice.start", "ice that meets no water starts without loads; must be auto or unloaded");

@@ -143,6 +143,13 @@ std::vector<std::string> Values::tables_below(const std::string& table) const {
   return names;
 }
 
+std::vector<std::string> Values::keys_below(const std::string& table) const {
+  std::vector<std::string> names;
+  for (const auto& [path, entry] : document_.values)
+    if (path.starts_with(table + ".")) names.push_back(path.substr(table.size() + 1));
+  return names;
+}
+
 std::optional<double> Values::given(const std::string& path) const {
   const KeyRule& rule = rule_of(path);
   const auto found = document_.values.find(path);

@@ -28,6 +28,8 @@ class Values {
   bool is_given(const std::string& path) const { return document_.values.contains(path); }
   /// Names of the tables directly below one that holds tables of the user's names.
   std::vector<std::string> tables_below(const std::string& table) const;
+  /// Names of the keys directly below a table whose keys are the user's names, ascending.
+  std::vector<std::string> keys_below(const std::string& table) const;
   /// Where relative paths of the scene start.
   std::filesystem::path folder() const { return document_.file.parent_path(); }
   /// Throws SceneError: place, key and value, then `what`.

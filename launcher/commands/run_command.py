@@ -18,7 +18,7 @@ from launcher.supervise import Outcome, Supervisor
 def run(arguments: argparse.Namespace) -> int:
     file = scenes.find(arguments.scene)
     build.build(["resolve_scene"])
-    scene = scenes.resolve(file, arguments.level, arguments.settings, explain=True)
+    scene, mesh = scenes.resolve_with_mesh(file, arguments.level, arguments.settings, explain=True)
     scenes.refuse_what_does_not_fit(scene)
     scene.pop("estimate", None)
     names = scenes.participants(scene)
@@ -31,6 +31,10 @@ def run(arguments: argparse.Namespace) -> int:
 
     started = time.monotonic()
     with run_folder.prepare(folder, scene):
+        if mesh:
+            from launcher.mesh import importing
+
+            importing.write(mesh, folder / run_folder.ICE_MESH)
         if foreign_vehicle:
             processes.write_surface(scene, folder, build.program_folder())
         outcome = supervise(scene, names, folder, cores, plain=arguments.json)
