@@ -96,9 +96,12 @@ void PrescribedBodies::cut(double time) {
   counts_.united += static_cast<long>(now_.cells.united_cells);
   counts_.united_exactly += static_cast<long>(now_.cells.united_exactly);
   counts_.doubted += static_cast<long>(now_.cells.doubted_unions);
-  if (now_.cells.overlapping_cells > 0) {
+  if (now_.cells.overlapping_cells > 0 || now_.cells.doubted_unions > 0) {
     std::ostringstream text;
-    text << "more than two bodies overlap in " << now_.cells.overlapping_cells << " cells at time " << time << " s";
+    text << "bodies overlap in " << std::max(now_.cells.overlapping_cells, now_.cells.doubted_unions)
+         << " cells at time " << time
+         << " s so that their union is not certain: three of them in one place, or an open "
+         << "surface; two closed bodies may overlap";
     throw geometry::GeometryError(text.str());
   }
   now_.lever.clear();

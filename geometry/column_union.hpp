@@ -15,7 +15,7 @@ struct UnitedColumn {
   std::span<const BodySurface> bodies;
   const UnionMethod& method;
   std::span<const ColumnChunk> chunks;  ///< of all columns
-  std::int32_t i, j, highest;           ///< highest: slab with surface
+  std::int32_t i, j;
 };
 
 /// Sums up what of each body's surface lies in other bodies into `chunk.removed`, and notes what remains of the pieces

@@ -48,8 +48,7 @@ class ColumnWalk {
   void run() {
     if (!gather()) return;
     const std::size_t parts = chunk_.parts.size();
-    united_ = !method_.bodies.empty() && dx_ > 0 && dy_ > 0 &&
-              unite({grid_, bodies_, method_, chunks_, i_, j_, highest_}, chunk_);
+    united_ = !method_.bodies.empty() && unite({grid_, bodies_, method_, chunks_, i_, j_}, chunk_);
     chunk_.shade.assign(bodies_.size(), {});
     chunk_.joint_shade.assign(bodies_.size(), {});
     for (std::int32_t k = highest_; k >= 0; --k) {
@@ -194,7 +193,8 @@ class ColumnWalk {
     chunk_.row_of_k[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(chunk_.cells.size());
     chunk_.cells.place.push_back({i_, j_, k, count});
     chunk_.cells.walled.push_back(0);
-    const double common = joint([&](std::size_t b) { return removed(k, b).height_moment / dz + chunk_.joint_shade[b].area; });
+    const double common =
+        joint([&](std::size_t b) { return removed(k, b).height_moment / dz + chunk_.joint_shade[b].area; });
     if (united_) total = snapped(total - common / (dx_ * dy_));
     chunk_.cells.total.push_back(total);
     if (total > 1.0 + 1e-9) chunk_.overlapping_cells += count;
@@ -216,7 +216,7 @@ class ColumnWalk {
   }
 
   void z_faces(std::int32_t k, std::int32_t count) {
-    if (dx_ > 0 && dy_ > 0) 
+    if (dx_ > 0 && dy_ > 0)
       faces(
           2, k, count, dx_ * dy_, [&](std::size_t b) { return chunk_.shade[b].area; },
           [&](std::size_t b) { return chunk_.joint_shade[b].area; });

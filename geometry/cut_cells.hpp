@@ -65,10 +65,10 @@ struct CutCells {
 
   std::vector<UncertainVolume> uncertain;  ///< by cell; see recut_uncertain (exact_cut.hpp)
 
-  std::int64_t shared_cells = 0;       ///< cells that hold two bodies
-  std::int64_t united_cells = 0;       ///< of them, those where a body's surface lies in another body and is not wetted
-  std::int64_t united_exactly = 0;     ///< cells where this was found by exact numbers
-  std::int64_t doubted_unions = 0;     ///< cells where it is not certain: no exact numbers at hand, or loose edges
+  std::int64_t shared_cells = 0;    ///< cells that hold two bodies
+  std::int64_t united_cells = 0;    ///< of them, those where a body's surface lies in another body and is not wetted
+  std::int64_t united_exactly = 0;  ///< cells where this was found by exact numbers
+  std::int64_t doubted_unions = 0;  ///< cells where it is not certain: three bodies, loose edges, or no exact numbers
   std::int64_t overlapping_cells = 0;  ///< cells whose solid volume exceeded the cell and was clamped
   std::int64_t corrected_faces = 0;    ///< faces whose fraction left [0, 1] (overlap, folded surface) and was clamped
   std::int64_t loose_edges = 0;        ///< open edges of the surfaces away from the walls of the grid: should be 0

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -85,6 +87,29 @@ void note_entries(ColumnChunk& chunk) {
     chunk.parts[p].entry = entry;
     if (entry >= 0) entry = -2 - static_cast<std::int64_t>(chunk.first_part + p);
   }
+}
+
+/// Whether the boxes along the axes around any two bodies touch: elsewhere neither has surface in the other.
+bool boxes_meet(const std::vector<PlacedSurface>& surfaces) {
+  std::vector<std::array<double, 6>> boxes;
+  for (const PlacedSurface& surface : surfaces) {
+    std::array<double, 6> box;
+    for (std::size_t d = 0; d < 3; ++d) {
+      box[d] = std::numeric_limits<double>::infinity(), box[3 + d] = -box[d];
+      for (const Corner& c : surface.corners())
+        box[d] = std::min(box[d], c.x[d]), box[3 + d] = std::max(box[3 + d], c.x[d]);
+    }
+    for (const std::array<double, 6>& other : boxes) {
+      bool meet = true;
+      for (std::size_t d = 0; d < 3; ++d) {
+        const double near = 1e-9 * (std::abs(box[d]) + std::abs(box[3 + d]));
+        meet = meet && box[d] <= other[3 + d] + near && other[d] <= box[3 + d] + near;
+      }
+      if (meet) return true;
+    }
+    boxes.push_back(box);
+  }
+  return false;
 }
 
 void resize(CutCells& out, std::size_t entries) {
@@ -181,11 +206,11 @@ std::int64_t Cutter::Workspace::clip(std::span<const BodySurface> bodies) {
 void Cutter::Workspace::prepare_union(std::span<const BodySurface> bodies) {
   union_bodies.clear();
   shifts.resize(bodies.size());
-  const auto present = std::ranges::count_if(bodies, [](const BodySurface& b) { return !b.triangles.empty(); });
-  for (std::size_t b = 0; present > 1 && b < bodies.size(); ++b) {
-    shifts[b] = joint_shifts(grid, locators, bodies[b], surfaces[b].corners(), b);
-    union_bodies.push_back({surfaces[b].corners(), shifts[b]});
-  }
+  if (boxes_meet(surfaces))
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      shifts[b] = joint_shifts(grid, locators, bodies[b], surfaces[b].corners(), b);
+      union_bodies.push_back({surfaces[b].corners(), shifts[b]});
+    }
   union_method.bodies = union_bodies;
 }
 

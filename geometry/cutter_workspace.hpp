@@ -21,7 +21,7 @@ struct Cutter::Workspace {
   std::vector<std::vector<std::array<double, 3>>> shifts;  ///< [bodies], joint_shifts
   std::vector<UnionBody> union_bodies;                     ///< empty: one body at most has a surface
   UnionMethod union_method;
-  std::vector<PiecePart> parts;  ///< of all chunks of columns
+  std::vector<PiecePart> parts;          ///< of all chunks of columns
   std::vector<std::size_t> piece_start;  ///< [clips + 1]
   DebrisDeposit debris;
   bool complete = false;  ///< `clipped` belongs to `surfaces`: no error came between

@@ -97,11 +97,18 @@ class JointClip {
 
   void keep_in_cell() {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      keep(whole_, axis == 0 ? on_lower_x : axis == 1 ? on_lower_y : std::uint8_t{0},
+      keep(whole_,
+           axis == 0   ? on_lower_x
+           : axis == 1 ? on_lower_y
+                       : std::uint8_t{0},
            [&](const JointPoint<Number>& p) { return p[axis]; });
       if (!std::isfinite(cell_.high[axis])) continue;
       const Number width = Number(cell_.high[axis]) - Number(cell_.low[axis]);
-      keep(whole_, std::uint8_t{0}, [&](const JointPoint<Number>& p) { return Number(width - p[axis]); });
+      keep(whole_,
+           axis == 0   ? on_upper_x
+           : axis == 1 ? on_upper_y
+                       : std::uint8_t{0},
+           [&](const JointPoint<Number>& p) { return Number(width - p[axis]); });
     }
   }
 
@@ -152,8 +159,7 @@ class JointClip {
     }
     if (part.count < 3) return true;
     const auto depth = [&](const JointPoint<Number>& p) {
-      const Number above =
-          normal[0] * (p[0] - t[0][0]) + normal[1] * (p[1] - t[0][1]) + normal[2] * (p[2] - t[0][2]);
+      const Number above = normal[0] * (p[0] - t[0][0]) + normal[1] * (p[1] - t[0][1]) + normal[2] * (p[2] - t[0][2]);
       return up ? Number(-above) : above;
     };
     if (lowest[2] <= high[2] + near) {
@@ -174,8 +180,8 @@ class JointClip {
   /// Of the smallest slope n_z of a triangle that has something below it in doubles.
   static constexpr double steepest = 2e-14;
 
-  /// How far a plane cuts into a polygon, or along an edge of it, is known to the distances' rounding over their spread.
-  /// Of nearly parallel planes that is too little: beyond `share` of the cell's face.
+  /// How far a plane cuts into a polygon, or along an edge of it, is known to the distances' rounding over their
+  /// spread. Of nearly parallel planes that is too little: beyond `share` of the cell's face.
   template <class Depth>
   bool is_certain(const JointPolygon<Number>& part, Depth&& depth, double largest, double share) const {
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * largest;
@@ -226,12 +232,14 @@ class JointClip {
     for (std::size_t c = 0; c < part.count; ++c) {
       const JointPoint<double>&a = p[c], &b = p[c + 1 == part.count ? 0 : c + 1];
       const double height = 0.5 * (a[2] + b[2]);
-      if (part.planes[c] == on_lower_x) {
-        sum.x_extent += sign * (a[1] - b[1]);
-        sum.x_moment += sign * (a[1] - b[1]) * height;
-      } else if (part.planes[c] == on_lower_y) {
-        sum.y_extent += sign * (b[0] - a[0]);
-        sum.y_moment += sign * (b[0] - a[0]) * height;
+      if (part.planes[c] == (cell_.last[0] ? on_upper_x : on_lower_x)) {
+        const double extent = (cell_.last[0] ? -sign : sign) * (a[1] - b[1]);
+        sum.x_extent += extent;
+        sum.x_moment += extent * height;
+      } else if (part.planes[c] == (cell_.last[1] ? on_upper_y : on_lower_y)) {
+        const double extent = (cell_.last[1] ? -sign : sign) * (b[0] - a[0]);
+        sum.y_extent += extent;
+        sum.y_moment += extent * height;
       }
     }
   }

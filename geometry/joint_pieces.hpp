@@ -25,6 +25,7 @@ struct JointTriangle {
 /// The topmost cell has no upper end: what lies above the grid belongs to it.
 struct JointCell {
   std::array<double, 3> low, high;
+  std::array<bool, 2> last{};  ///< cuts along its upper x- or y-plane are summed, not along its lower ones
 };
 
 /// Sums over parts of one triangle in one cell, as in PieceRecord.

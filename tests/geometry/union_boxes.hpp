@@ -29,7 +29,8 @@ struct Bounds {
 
 inline Bounds common(const Bounds& a, const Bounds& b) {
   Bounds c;
-  for (std::size_t d = 0; d < 3; ++d) c.low[d] = std::max(a.low[d], b.low[d]), c.high[d] = std::min(a.high[d], b.high[d]);
+  for (std::size_t d = 0; d < 3; ++d)
+    c.low[d] = std::max(a.low[d], b.low[d]), c.high[d] = std::min(a.high[d], b.high[d]);
   return c;
 }
 
@@ -45,7 +46,8 @@ inline Bounds cell_bounds(std::int64_t cell) {
   const auto p = grid.cell_position(cell);
   Bounds b;
   for (std::size_t d = 0; d < 3; ++d)
-    b.low[d] = grid.lines[d][static_cast<std::size_t>(p[d])], b.high[d] = grid.lines[d][static_cast<std::size_t>(p[d]) + 1];
+    b.low[d] = grid.lines[d][static_cast<std::size_t>(p[d])],
+    b.high[d] = grid.lines[d][static_cast<std::size_t>(p[d]) + 1];
   return b;
 }
 
@@ -64,7 +66,8 @@ inline double largest_error(const CutCells& cut, const Bounds& a, const Bounds& 
   std::vector<double> volume(static_cast<std::size_t>(grid.cell_count()), 0.0);
   for (std::size_t e = 0; e < cut.cell.size(); ++e) volume[static_cast<std::size_t>(cut.cell[e])] = cut.solid_volume[e];
   for (std::int64_t c = 0; c < grid.cell_count(); ++c)
-    worst = std::max(worst, std::abs(volume[static_cast<std::size_t>(c)] - union_in(a, b, cell_bounds(c))) / (h * h * h));
+    worst =
+        std::max(worst, std::abs(volume[static_cast<std::size_t>(c)] - union_in(a, b, cell_bounds(c))) / (h * h * h));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::array<std::int64_t, 3> n{cells, cells, cells};
     ++n[axis];

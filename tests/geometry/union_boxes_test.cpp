@@ -67,3 +67,14 @@ TEST(UnionOfBoxes, ExactNumbersThroughoutGiveTheSame) {
     expect_closed(exact);
   }
 }
+
+TEST(UnionOfBoxes, OfThreeInOnePlaceIsNotClaimed) {
+  const Shape a = Bounds{{-0.4, -0.4, -0.4}, {0.2, 0.3, 0.1}}.shape(2),
+              b = Bounds{{-0.1, -0.3, -0.2}, {0.6, 0.4, 0.5}}.shape(2),
+              c = Bounds{{-0.3, -0.2, -0.3}, {0.4, 0.1, 0.6}}.shape(2);
+  Cutter cutter(grid);
+  cutter.set_exact_union(add_below_exactly);
+  CutCells cut;
+  cutter.cut(std::array{a.surface(), b.surface(), c.surface()}, cut);
+  EXPECT_GT(cut.doubted_unions, 0);
+}

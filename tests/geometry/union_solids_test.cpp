@@ -220,3 +220,16 @@ TEST(UnionOfSolids, FeelsTheBuoyancyOfItsVolume) {
     EXPECT_NEAR(force[2] / buoyancy, 1, 1e-11);
   }
 }
+
+TEST(UnionOfSolids, IsCutOffByTheWallsOfTheGrid) {
+  Shape a = shapes::box(3), b = shapes::sphere(2);
+  shapes::scale_and_move(a, {4, 0.51, 0.43}, {0.1, 0.03, 0.02});  // beyond both walls normal to x
+  shapes::scale_and_move(b, {0.9, 0.9, 0.9}, {1.4, -0.2, 0.21});  // beyond the last one
+  for (const bool along_y : {false, true}) {
+    if (along_y)
+      for (Shape* s : {&a, &b}) s->transform([](Vector p) { return Vector{-p[1], p[0], p[2]}; });
+    const CutCells cut = cut_of(a, b);
+    EXPECT_GT(cut.united_cells, 0);
+    expect_closed(cut);
+  }
+}
