@@ -4,3 +4,7 @@
 TEST(DegenerateUnions, TenThousandPairsAreExactAndClose) {
   union_boxes::expect_degenerate_pairs(7, 10000);
 }
+
+TEST(DegenerateUnions, TwoThousandPairsTurnedTogetherKeepTheirVolume) {
+  union_boxes::expect_turned_pairs(13, 2000);
+}

@@ -147,4 +147,30 @@ inline void expect_degenerate_pairs(unsigned seed, int trials) {
               static_cast<long>(exactly), worst);
 }
 
+/// The same turned together: planes, edges and corners coincide to rounding.
+inline void expect_turned_pairs(unsigned seed, int trials) {
+  std::mt19937 random(seed);
+  double worst = 0;
+  std::int64_t united = 0, exactly = 0;
+  for (int trial = 0; trial < trials && !testing::Test::HasFailure(); ++trial) {
+    SCOPED_TRACE(trial);
+    const Bounds a = random_box(random, true), b = trial % 50 == 0 ? a : random_box(random, true);
+    Shape first = a.shape(1 + trial % 3), second = b.shape(1 + trial % 2);
+    std::mt19937 turn(static_cast<unsigned>(trial)), same = turn;
+    shapes::rotate_randomly(first, turn);
+    shapes::rotate_randomly(second, same);
+    constexpr double scale = 0.7;  // stays inside
+    for (Shape* s : {&first, &second}) shapes::scale_and_move(*s, {scale, scale, scale}, {0, 0, 0});
+    const CutCells cut = cut_of(first, second);
+    const double volume = scale * scale * scale * (measure(a) + measure(b) - measure(common(a, b)));
+    EXPECT_NEAR(total_volume(cut), volume, 1e-13);
+    expect_closed(cut);
+    worst = std::max(worst, std::abs(total_volume(cut) - volume));
+    united += cut.united_cells;
+    exactly += cut.united_exactly;
+  }
+  std::printf("%ld cells united, %ld looked at exactly; largest error %.1e m^3\n", static_cast<long>(united),
+              static_cast<long>(exactly), worst);
+}
+
 }  // namespace union_boxes

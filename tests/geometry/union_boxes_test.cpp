@@ -24,6 +24,10 @@ TEST(UnionOfBoxes, IsExactWherePlanesEdgesAndCornersCoincide) {
   expect_degenerate_pairs(5, 300);
 }
 
+TEST(UnionOfBoxes, HoldsWherePlanesCoincideToRounding) {
+  expect_turned_pairs(11, 150);
+}
+
 TEST(UnionOfBoxes, FacesThatLieOnEachOtherAreNotWetted) {
   for (const double plane : {0.0, 0.1}) {  // of the grid, and amid cells
     const Bounds lower{{-0.4, -0.3, -0.5}, {0.45, 0.35, plane}}, upper{{-0.2, -0.15, plane}, {0.3, 0.2, 0.6}};
