@@ -325,6 +325,9 @@ void write_reports(Run& run, const std::vector<std::pair<std::string, nlohmann::
     summary["overlap_cells"] = cut.cells;
     summary["overlap_cells_exact"] = cut.exact;
     summary["overlap_cells_two_bodies"] = cut.shared;
+    summary["overlap_cells_united"] = cut.united;
+    summary["overlap_cells_united_exactly"] = cut.united_exactly;
+    summary["overlap_cells_doubted"] = cut.doubted;
     summary["overlap_triangles_kept"] = cut.kept;
   }
   for (const auto& [name, words] : last_words) summary["participants"][name] = words;

@@ -40,6 +40,7 @@ OverlapExchange::OverlapExchange(const FluidSide& fluid, bool debris_displaces_f
       exact_(exact),
       atmospheric_pressure_(atmospheric_pressure) {
   if (exact) cutter_.set_method(geometry::clip_exactly);
+  cutter_.set_exact_union(geometry::add_below_exactly, exact);
 }
 
 std::vector<geometry::BodySurface> OverlapExchange::Cut::views() const {
@@ -68,6 +69,9 @@ const geometry::CutCells& OverlapExchange::cut(const Conversation& conversation,
   counts_.cells += walled;
   counts_.exact += exact_ ? walled : static_cast<long>(recut);
   counts_.shared += static_cast<long>(now_.cells.shared_cells);
+  counts_.united += static_cast<long>(now_.cells.united_cells);
+  counts_.united_exactly += static_cast<long>(now_.cells.united_exactly);
+  counts_.doubted += static_cast<long>(now_.cells.doubted_unions);
   counts_.kept += static_cast<long>(now_.cells.kept_triangles);
   if (debris_displaces_fluid_) {
     const auto inner = watch.lap("debris_displacement");

@@ -41,11 +41,14 @@ class OverlapExchange {
 
   /// Of all cuts so far.
   struct Counts {
-    long cells = 0;   ///< with wall
-    long exact = 0;   ///< of them, recut by exact numbers because rounding made them uncertain, or all
-    long shared = 0;  ///< cells that hold both bodies
-    long kept = 0;    ///< triangles that lay where they lay, and were not clipped again
-    POLYNYA_STATE(cells, exact, shared, kept)
+    long cells = 0;           ///< with wall
+    long exact = 0;           ///< of them, recut by exact numbers because rounding made them uncertain, or all
+    long shared = 0;          ///< cells that hold both bodies
+    long united = 0;          ///< of them, those where one body's surface lies in the other and is not wetted
+    long united_exactly = 0;  ///< cells where that was found by exact numbers
+    long doubted = 0;         ///< cells where it is not certain: a surface has loose edges
+    long kept = 0;            ///< triangles that lay where they lay, and were not clipped again
+    POLYNYA_STATE(cells, exact, shared, united, united_exactly, doubted, kept)
   };
   const Counts& counts() const { return counts_; }
 

@@ -104,7 +104,10 @@ void run(const Options& options, const scene::Scene& scene, fluid::Fluid& built)
           fluid::run_bodies(scene, built, bodies, output, checkpoints);
           more = {{"overlap_cells", bodies.counts().cells},
                   {"overlap_cells_exact", bodies.counts().exact},
-                  {"overlap_cells_two_bodies", bodies.counts().shared}};
+                  {"overlap_cells_two_bodies", bodies.counts().shared},
+                  {"overlap_cells_united", bodies.counts().united},
+                  {"overlap_cells_united_exactly", bodies.counts().united_exactly},
+                  {"overlap_cells_doubted", bodies.counts().doubted}};
         } else
           error = fluid::run_tube(scene, built, output, checkpoints);
       });

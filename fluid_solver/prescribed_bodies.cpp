@@ -20,6 +20,7 @@ scene::Vector cross(const scene::Vector& a, const scene::Vector& b) {
 PrescribedBodies::PrescribedBodies(const scene::Scene& scene, const Grid& grid)
     : cutter_(geometry::GridLines{{grid.x, grid.y, grid.z}}), exact_(scene.overlap.method == "exact") {
   if (exact_) cutter_.set_method(geometry::clip_exactly);
+  cutter_.set_exact_union(geometry::add_below_exactly, exact_);
   for (const auto& [name, body] : *scene.fluid->bodies) {
     Surface surface{name, body, {scene::mirrored(scene, body, 0), scene::mirrored(scene, body, 1)}, {}, {}, {}, {}};
     geometry::TriangleSoup soup = scene::body_surface(body, edge_of_cell * scene.resolution.cell);
@@ -92,9 +93,15 @@ void PrescribedBodies::cut(double time) {
   counts_.cells += walled;
   counts_.exact += exact_ ? walled : static_cast<long>(recut);
   counts_.shared += static_cast<long>(now_.cells.shared_cells);
-  if (now_.cells.overlapping_cells > 0) {
+  counts_.united += static_cast<long>(now_.cells.united_cells);
+  counts_.united_exactly += static_cast<long>(now_.cells.united_exactly);
+  counts_.doubted += static_cast<long>(now_.cells.doubted_unions);
+  if (now_.cells.overlapping_cells > 0 || now_.cells.doubted_unions > 0) {
     std::ostringstream text;
-    text << "bodies overlap in " << now_.cells.overlapping_cells << " cells at time " << time << " s";
+    text << "bodies overlap in " << std::max(now_.cells.overlapping_cells, now_.cells.doubted_unions)
+         << " cells at time " << time
+         << " s so that their union is not certain: three of them in one place, or an open "
+         << "surface; two closed bodies may overlap";
     throw geometry::GeometryError(text.str());
   }
   now_.lever.clear();

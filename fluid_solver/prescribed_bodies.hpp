@@ -26,8 +26,8 @@ class PrescribedBodies {
 
   /// The cut at the fluid's time 0, walls moving as they do then.
   const Overlap& start();
-  /// The cut `dt` after `time`, walls with their mean velocity in between: what a step needs. Throws GeometryError when
-  /// bodies overlap.
+  /// The cut `dt` after `time`, walls with their mean velocity in between: what a step needs. Throws GeometryError
+  /// where more than two bodies overlap; two count once.
   const Overlap& advance(double time, double dt);
   /// After the step: adds what it gave to the bodies. Over the step the fluid saw the mean of the walls at both ends.
   void take(const Fluid& fluid, double dt);
@@ -37,11 +37,12 @@ class PrescribedBodies {
   const scene::Body& body(std::size_t b) const { return bodies_[b].body; }
   bool moves_at_start() const;
 
-  /// Over all cuts made: cells with wall, those cut by exact numbers, those that hold two bodies.
+  /// Over all cuts made: cells with wall, those cut by exact numbers, those that hold two bodies, of them those where
+  /// one lies in the other, those where that was found by exact numbers, and where it is not certain.
   struct Counts {
-    long cells = 0, exact = 0, shared = 0;
+    long cells = 0, exact = 0, shared = 0, united = 0, united_exactly = 0, doubted = 0;
 
-    POLYNYA_STATE(cells, exact, shared)
+    POLYNYA_STATE(cells, exact, shared, united, united_exactly, doubted)
   };
   const Counts& counts() const { return counts_; }
   const std::vector<BodyImpulse>& given() const { return given_; }

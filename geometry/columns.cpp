@@ -4,11 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/column_union.hpp"
+
 namespace polynya::geometry {
 namespace {
 
 constexpr double negligible = 1e-12;        // of a cell or face: rounding
 constexpr std::size_t prefetch_ahead = 16;  // records
+constexpr double negligible_rest = 1e-12;   // of a wall inside another body
 constexpr double negligible_wall = 1e-14;   // of the sum of a cell's face areas
 
 // Rounding moves a corner by a few parts in 2^53 of its coordinates, and the volume under it by that times the wall; a
@@ -25,8 +28,15 @@ double snapped(double fraction) {
 class ColumnWalk {
  public:
   ColumnWalk(const GridLines& grid, std::span<const BodySurface> bodies, std::span<const double> reach,
-             std::size_t column, ColumnChunk& chunk)
-      : bodies_(bodies), reach_(reach), local_(column % column_chunk), chunk_(chunk), z_(grid.lines[2]) {
+             const UnionMethod& method, std::size_t column, std::span<ColumnChunk> chunks)
+      : grid_(grid),
+        bodies_(bodies),
+        reach_(reach),
+        method_(method),
+        local_(column % column_chunk),
+        chunks_(chunks),
+        chunk_(chunks[column / column_chunk]),
+        z_(grid.lines[2]) {
     const auto columns_x = static_cast<std::size_t>(grid.cells(0)) + 1;
     i_ = static_cast<std::int32_t>(column % columns_x);
     j_ = static_cast<std::int32_t>(column / columns_x);
@@ -37,7 +47,10 @@ class ColumnWalk {
 
   void run() {
     if (!gather()) return;
+    const std::size_t parts = chunk_.parts.size();
+    united_ = !method_.bodies.empty() && unite({grid_, bodies_, method_, chunks_, i_, j_}, chunk_);
     chunk_.shade.assign(bodies_.size(), {});
+    chunk_.joint_shade.assign(bodies_.size(), {});
     for (std::int32_t k = highest_; k >= 0; --k) {
       if (chunk_.occupied[static_cast<std::size_t>(k)]) {
         if (k < top_) cells(k, 1);
@@ -51,13 +64,25 @@ class ColumnWalk {
       cells(k, high - k + 1);
       z_faces(k, high - k + 1);
     }
-    note_rows_of_records();
+    note_rows_of_records(parts);
     clear_sums();
   }
 
  private:
   CellSum& sum(std::int32_t k, std::size_t body) {
     return chunk_.sums[static_cast<std::size_t>(k) * bodies_.size() + body];
+  }
+
+  CellSum& removed(std::int32_t k, std::size_t body) {
+    return chunk_.removed[static_cast<std::size_t>(k) * bodies_.size() + body];
+  }
+
+  /// What two bodies have in common is bounded by their surfaces inside one another.
+  template <class Value>
+  double joint(Value&& value) const {
+    double total = 0;
+    for (std::size_t b = 0; united_ && b < bodies_.size(); ++b) total += value(b);
+    return total;
   }
 
   /// The column's records of one body.
@@ -89,6 +114,7 @@ class ColumnWalk {
     for (std::size_t b = 0; b < bodies_.size(); ++b)
       for (const PieceRecord* piece : records(b)) {
         sum(piece->k, b) = {};
+        removed(piece->k, b) = {};
         chunk_.occupied[static_cast<std::size_t>(piece->k)] = 0;
       }
   }
@@ -130,9 +156,13 @@ class ColumnWalk {
   void cells(std::int32_t k, std::int32_t count) {
     const double dz = height(k);
     if (dy_ > 0)
-      faces(0, k, count, dy_, [&](std::size_t b) { return sum(k, b).x_moment / dz + chunk_.shade[b].x_extent; });
+      faces(
+          0, k, count, dy_, [&](std::size_t b) { return sum(k, b).x_moment / dz + chunk_.shade[b].x_extent; },
+          [&](std::size_t b) { return removed(k, b).x_moment / dz + chunk_.joint_shade[b].x_extent; });
     if (dx_ > 0)
-      faces(1, k, count, dx_, [&](std::size_t b) { return sum(k, b).y_moment / dz + chunk_.shade[b].y_extent; });
+      faces(
+          1, k, count, dx_, [&](std::size_t b) { return sum(k, b).y_moment / dz + chunk_.shade[b].y_extent; },
+          [&](std::size_t b) { return removed(k, b).y_moment / dz + chunk_.joint_shade[b].y_extent; });
     if (!(dx_ > 0 && dy_ > 0)) return;
     const double least_wall = negligible_wall * (dx_ * dy_ + dy_ * dz + dz * dx_);
     int present = 0;
@@ -141,15 +171,19 @@ class ColumnWalk {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const CellSum& s = sum(k, b);
       const double solid = snapped((s.height_moment / dz + chunk_.shade[b].area) / (dx_ * dy_));
-      const double per_wall = s.wall > 0 ? 1.0 / s.wall : 0.0;
+      const CellSum& r = removed(k, b);
+      const double wetted = s.wall - r.wall;
+      const double per_wall = wetted > negligible_rest * r.wall ? 1.0 / wetted : 0.0;
       present += solid != 0 || s.wall > least_wall;
       total += solid;
       const double doubt = rounding * (reach_[b] * s.wall + dz * (s.wall + chunk_.shade[b].wall));
       if (doubt > largest_uncertainty * dx_ * dy_ * dz)
         chunk_.uncertain.push_back({{i_, j_, k, count}, static_cast<std::int32_t>(b)});
       chunk_.cells.values.insert(chunk_.cells.values.end(),
-                                 {solid, s.area[0], s.area[1], s.area[2], per_wall * s.weighted_velocity[0],
-                                  per_wall * s.weighted_velocity[1], per_wall * s.weighted_velocity[2], s.sweep});
+                                 {solid, s.area[0] - r.area[0], s.area[1] - r.area[1], s.area[2] - r.area[2],
+                                  per_wall * (s.weighted_velocity[0] - r.weighted_velocity[0]),
+                                  per_wall * (s.weighted_velocity[1] - r.weighted_velocity[1]),
+                                  per_wall * (s.weighted_velocity[2] - r.weighted_velocity[2]), s.sweep - r.sweep});
     }
     if (present == 0) {
       chunk_.uncertain.resize(doubted);
@@ -159,27 +193,38 @@ class ColumnWalk {
     chunk_.row_of_k[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(chunk_.cells.size());
     chunk_.cells.place.push_back({i_, j_, k, count});
     chunk_.cells.walled.push_back(0);
+    const double common =
+        joint([&](std::size_t b) { return removed(k, b).height_moment / dz + chunk_.joint_shade[b].area; });
+    if (united_) total = snapped(total - common / (dx_ * dy_));
+    chunk_.cells.total.push_back(total);
     if (total > 1.0 + 1e-9) chunk_.overlapping_cells += count;
   }
 
   /// After this the shade is what crosses the z-plane k.
   void take_into_shade(std::int32_t k) {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      const CellSum& s = sum(k, b);
-      chunk_.shade[b].area += s.area[2];
-      chunk_.shade[b].x_extent += s.x_extent;
-      chunk_.shade[b].y_extent += s.y_extent;
-      chunk_.shade[b].wall += s.wall;
+      take(sum(k, b), chunk_.shade[b]);
+      if (united_) take(removed(k, b), chunk_.joint_shade[b]);
     }
   }
 
-  void z_faces(std::int32_t k, std::int32_t count) {
-    if (dx_ > 0 && dy_ > 0) faces(2, k, count, dx_ * dy_, [&](std::size_t b) { return chunk_.shade[b].area; });
+  static void take(const CellSum& sum, ColumnShade& shade) {
+    shade.area += sum.area[2];
+    shade.x_extent += sum.x_extent;
+    shade.y_extent += sum.y_extent;
+    shade.wall += sum.wall;
   }
 
-  /// Solid parts of `count` faces from k upward; `solid` and `whole` are areas, for x and y per height.
-  template <class Solid>
-  void faces(std::size_t axis, std::int32_t k, std::int32_t count, double whole, Solid&& solid) {
+  void z_faces(std::int32_t k, std::int32_t count) {
+    if (dx_ > 0 && dy_ > 0)
+      faces(
+          2, k, count, dx_ * dy_, [&](std::size_t b) { return chunk_.shade[b].area; },
+          [&](std::size_t b) { return chunk_.joint_shade[b].area; });
+  }
+
+  /// Solid parts of `count` faces from k upward; `solid`, `common` and `whole` are areas, for x and y per height.
+  template <class Solid, class Common>
+  void faces(std::size_t axis, std::int32_t k, std::int32_t count, double whole, Solid&& solid, Common&& common) {
     bool present = false;
     double total = 0;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -188,6 +233,7 @@ class ColumnWalk {
       total += fraction;
     }
     if (!present) return;
+    if (united_) total = snapped(total - joint(common) / whole);
     chunk_.faces[axis].place.push_back({i_, j_, k, count});
     chunk_.faces[axis].values.push_back(std::clamp(total, 0.0, 1.0));
     const double excess = total - std::clamp(total, 0.0, 1.0);
@@ -204,25 +250,32 @@ class ColumnWalk {
     });
   }
 
-  void note_rows_of_records() {
+  void note_rows_of_records(std::size_t part) {
     for (std::size_t b = 0; b < bodies_.size(); ++b)
       for (const PieceRecord*& piece : records(b)) {
-        const bool area = piece->area[0] != 0 || piece->area[1] != 0 || piece->area[2] != 0;
+        const std::ptrdiff_t record = &piece - chunk_.record.data();
+        const bool reduced = part < chunk_.parts.size() && chunk_.parts[part].record == record;
+        const std::array<double, 3>& left = reduced ? chunk_.parts[part++].area : piece->area;
+        const bool area = left[0] != 0 || left[1] != 0 || left[2] != 0;
         const std::int32_t row = area && piece->k < top_ ? chunk_.row_of_k[static_cast<std::size_t>(piece->k)] : -1;
-        chunk_.row[static_cast<std::size_t>(&piece - chunk_.record.data())] = row;
+        chunk_.row[static_cast<std::size_t>(record)] = row;
         if (row < 0) continue;
         chunk_.cells.walled[static_cast<std::size_t>(row)] = 1;
         ++chunk_.pieces[b][static_cast<std::size_t>(piece->triangle) / triangle_chunk];
       }
   }
 
+  const GridLines& grid_;
   std::span<const BodySurface> bodies_;
   std::span<const double> reach_;
+  const UnionMethod& method_;
   std::size_t local_;  // number of the column within the chunk
+  std::span<ColumnChunk> chunks_;
   ColumnChunk& chunk_;
   const std::vector<double>& z_;
   std::int32_t i_ = 0, j_ = 0, top_ = 0, highest_ = -1;
   double dx_ = 0, dy_ = 0;
+  bool united_ = false;  // bodies have surface inside one another
 };
 
 }  // namespace
@@ -251,9 +304,12 @@ void clear(ColumnChunk& chunk, std::size_t bodies, std::size_t slabs) {
   chunk.excesses.clear();
   chunk.uncertain.clear();
   chunk.shared_cells = chunk.overlapping_cells = 0;
+  chunk.united_cells = chunk.united_exactly = chunk.doubted_unions = 0;
+  chunk.parts.clear();
   chunk.row_of_k.resize(slabs, -1);
   chunk.occupied.resize(slabs, 0);
   if (chunk.sums.size() != slabs * bodies) chunk.sums.assign(slabs * bodies, CellSum{});
+  if (chunk.removed.size() != slabs * bodies) chunk.removed.assign(slabs * bodies, CellSum{});
 }
 
 /// Sorts the records in the columns from `begin` on by body and column; triangles keep their order.
@@ -293,12 +349,18 @@ void take_records(std::span<std::vector<ClippedChunk>> clipped, std::size_t begi
 
 }  // namespace
 
-void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies, std::span<const double> reach,
-                 std::span<std::vector<ClippedChunk>> clipped, std::size_t begin, std::size_t end, ColumnChunk& chunk) {
-  const auto slabs = static_cast<std::size_t>(grid.cells(2)) + 1;
-  clear(chunk, bodies.size(), slabs);
+void gather_columns(const GridLines& grid, std::span<std::vector<ClippedChunk>> clipped, std::size_t begin,
+                    ColumnChunk& chunk) {
+  clear(chunk, clipped.size(), static_cast<std::size_t>(grid.cells(2)) + 1);
   take_records(clipped, begin, chunk);
-  for (std::size_t column = begin; column < end; ++column) ColumnWalk(grid, bodies, reach, column, chunk).run();
+}
+
+void sum_columns(const GridLines& grid, std::span<const BodySurface> bodies, std::span<const double> reach,
+                 const UnionMethod& method, std::size_t begin, std::size_t end, std::span<ColumnChunk> chunks) {
+  ColumnChunk& chunk = chunks[begin / column_chunk];
+  for (std::size_t column = begin; column < end; ++column)
+    ColumnWalk(grid, bodies, reach, method, column, chunks).run();
+  const auto slabs = static_cast<std::size_t>(grid.cells(2)) + 1;
   chunk.cells.sort(slabs);
   for (Rows& rows : chunk.faces) rows.sort(slabs);
 }

@@ -65,16 +65,19 @@ struct CutCells {
 
   std::vector<UncertainVolume> uncertain;  ///< by cell; see recut_uncertain (exact_cut.hpp)
 
-  std::int64_t shared_cells = 0;       ///< cells that hold two bodies
-  std::int64_t overlapping_cells = 0;  ///< cells whose solid volume exceeded the cell (bodies overlap) and was clamped
+  std::int64_t shared_cells = 0;    ///< cells that hold two bodies
+  std::int64_t united_cells = 0;    ///< of them, those where a body's surface lies in another body and is not wetted
+  std::int64_t united_exactly = 0;  ///< cells where this was found by exact numbers
+  std::int64_t doubted_unions = 0;  ///< cells where it is not certain: three bodies, loose edges, or no exact numbers
+  std::int64_t overlapping_cells = 0;  ///< cells whose solid volume exceeded the cell and was clamped
   std::int64_t corrected_faces = 0;    ///< faces whose fraction left [0, 1] (overlap, folded surface) and was clamped
   std::int64_t loose_edges = 0;        ///< open edges of the surfaces away from the walls of the grid: should be 0
   std::int64_t kept_triangles = 0;     ///< that lay where they lay at the cut before: not clipped again
   double squeezed_volume = 0;          ///< m^3 of debris that found no room
 
   POLYNYA_STATE(bodies, cell, solid_volume, debris_volume, body_volume, wall_area, wall_velocity, wall_sweep, walled,
-                faces, pieces, uncertain, shared_cells, overlapping_cells, corrected_faces, loose_edges, kept_triangles,
-                squeezed_volume)
+                faces, pieces, uncertain, shared_cells, united_cells, united_exactly, doubted_unions, overlapping_cells,
+                corrected_faces, loose_edges, kept_triangles, squeezed_volume)
 };
 
 template <class Number>
@@ -85,6 +88,14 @@ struct PieceRecord;
 using ClipTriangles = void (*)(const std::array<LineLocator, 3>& lines, std::span<const BasicCorner<double>> corners,
                                std::span<const std::int32_t> triangles, std::size_t begin, std::size_t end,
                                std::vector<PieceRecord>& records);
+
+struct JointCell;
+struct JointTriangle;
+struct JointSum;
+
+/// Adds what of a piece of surface lies below triangles of another body (joint_pieces.hpp). False if it is not certain.
+using AddBelow = bool (*)(const JointCell& cell, const JointTriangle& piece, std::span<const JointTriangle> others,
+                          JointSum& sum);
 
 /// Cuts a grid by bodies, column by column: a point is solid when more surface leaves the body than enters it on the
 /// upward ray, so volumes, areas and fractions are sums of exact integrals over clipped triangles, and no point is ever
@@ -109,6 +120,9 @@ class Cutter {
 
   /// Clips by another method from now on than by doubles (exact_cut.hpp has one).
   void set_method(ClipTriangles method);
+
+  /// Decides by `exact` (exact_cut.hpp) where surfaces of two bodies lie in one another, if doubles cannot, or always.
+  void set_exact_union(AddBelow exact, bool always = false);
 
   /// Cuts by all bodies; `out` is overwritten, its debris is zero. Throws GeometryError on bad indices or positions
   /// that are not finite.

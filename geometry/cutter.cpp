@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -35,10 +37,8 @@ void scatter_cells(const GridLines& grid, Rows& rows, CutCells& out) {
       const Place& place = rows.place[r];
       const double* values = rows.values.data() + r * bodies * cell_stride;
       const double volume = grid.width(0, place.i) * grid.width(1, place.j) * grid.width(2, k);
-      double total = 0;
       for (std::size_t b = 0; b < bodies; ++b) {
         const double* value = values + b * cell_stride;
-        total += value[0];
         out.body_volume[at * bodies + b] = value[0] * volume;
         out.wall_sweep[at * bodies + b] = -value[7];
         for (std::size_t d = 0; d < 3; ++d) {
@@ -47,7 +47,7 @@ void scatter_cells(const GridLines& grid, Rows& rows, CutCells& out) {
         }
       }
       out.cell[at] = grid.cell_index(place.i, place.j, k);
-      out.solid_volume[at] = std::clamp(total, 0.0, 1.0) * volume;
+      out.solid_volume[at] = std::clamp(rows.total[r], 0.0, 1.0) * volume;
       out.debris_volume[at] = 0;
       out.walled[at] = rows.walled[r];
       if (place.k == k) rows.position[r] = static_cast<std::int64_t>(at);
@@ -78,10 +78,38 @@ double height(const GridLines& grid, const BodySurface& surface, const PieceReco
   return height;
 }
 
-/// Tells the records where their cells went.
+/// Tells the records where their cells went, or which part is left of them.
 void note_entries(ColumnChunk& chunk) {
   for (std::size_t r = 0; r < chunk.entry.size(); ++r)
     *chunk.entry[r] = chunk.row[r] < 0 ? -1 : chunk.cells.position[static_cast<std::size_t>(chunk.row[r])];
+  for (std::size_t p = 0; p < chunk.parts.size(); ++p) {
+    std::int64_t& entry = *chunk.entry[static_cast<std::size_t>(chunk.parts[p].record)];
+    chunk.parts[p].entry = entry;
+    if (entry >= 0) entry = -2 - static_cast<std::int64_t>(chunk.first_part + p);
+  }
+}
+
+/// Whether the boxes along the axes around any two bodies touch: elsewhere neither has surface in the other.
+bool boxes_meet(const std::vector<PlacedSurface>& surfaces) {
+  std::vector<std::array<double, 6>> boxes;
+  for (const PlacedSurface& surface : surfaces) {
+    std::array<double, 6> box;
+    for (std::size_t d = 0; d < 3; ++d) {
+      box[d] = std::numeric_limits<double>::infinity(), box[3 + d] = -box[d];
+      for (const Corner& c : surface.corners())
+        box[d] = std::min(box[d], c.x[d]), box[3 + d] = std::max(box[3 + d], c.x[d]);
+    }
+    for (const std::array<double, 6>& other : boxes) {
+      bool meet = true;
+      for (std::size_t d = 0; d < 3; ++d) {
+        const double near = 1e-9 * (std::abs(box[d]) + std::abs(box[3 + d]));
+        meet = meet && box[d] <= other[3 + d] + near && other[d] <= box[3 + d] + near;
+      }
+      if (meet) return true;
+    }
+    boxes.push_back(box);
+  }
+  return false;
 }
 
 void resize(CutCells& out, std::size_t entries) {
@@ -125,10 +153,16 @@ void Cutter::set_method(ClipTriangles method) {
   workspace_->complete = false;
 }
 
+void Cutter::set_exact_union(AddBelow exact, bool always) {
+  workspace_->union_method.exact = exact;
+  workspace_->union_method.always_exact = always;
+}
+
 void Cutter::cut(std::span<const BodySurface> bodies, CutCells& out) {
   Workspace& work = *workspace_;
   out.bodies = bodies.size();
   out.shared_cells = out.overlapping_cells = out.corrected_faces = out.loose_edges = out.kept_triangles = 0;
+  out.united_cells = out.united_exactly = out.doubted_unions = 0;
   out.squeezed_volume = 0;
   if (!std::exchange(work.complete, false))
     for (PlacedSurface& surface : work.surfaces) surface.forget();
@@ -141,6 +175,7 @@ void Cutter::cut(std::span<const BodySurface> bodies, CutCells& out) {
   }
   out.kept_triangles = work.clip(bodies);
   work.complete = true;
+  work.prepare_union(bodies);
   work.sum(bodies);
   work.collect(out);
   work.collect_uncertain(out);
@@ -168,10 +203,24 @@ std::int64_t Cutter::Workspace::clip(std::span<const BodySurface> bodies) {
   return std::accumulate(kept.begin(), kept.end(), std::int64_t{0});
 }
 
+void Cutter::Workspace::prepare_union(std::span<const BodySurface> bodies) {
+  union_bodies.clear();
+  shifts.resize(bodies.size());
+  if (boxes_meet(surfaces))
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      shifts[b] = joint_shifts(grid, locators, bodies[b], surfaces[b].corners(), b);
+      union_bodies.push_back({surfaces[b].corners(), shifts[b]});
+    }
+  union_method.bodies = union_bodies;
+}
+
 void Cutter::Workspace::sum(std::span<const BodySurface> bodies) {
   chunks.resize((columns() + column_chunk - 1) / column_chunk);
+  compute::for_uneven_chunks(columns(), column_chunk, [&](std::size_t begin, std::size_t) {
+    gather_columns(grid, clipped, begin, chunks[begin / column_chunk]);
+  });
   compute::for_uneven_chunks(columns(), column_chunk, [&](std::size_t begin, std::size_t end) {
-    sum_columns(grid, bodies, reach, clipped, begin, end, chunks[begin / column_chunk]);
+    sum_columns(grid, bodies, reach, union_method, begin, end, chunks);
   });
 }
 
@@ -183,7 +232,14 @@ void Cutter::Workspace::collect(CutCells& out) {
       assign_places(chunks, levels, [](ColumnChunk& c) -> Rows& { return c.faces[1]; }),
       assign_places(chunks, levels, [](ColumnChunk& c) -> Rows& { return c.faces[2]; })};
   excesses.clear();
-  for (const ColumnChunk& chunk : chunks) {
+  parts.clear();
+  std::size_t all_parts = 0;
+  for (ColumnChunk& chunk : chunks) {
+    chunk.first_part = all_parts;
+    all_parts += chunk.parts.size();
+    out.united_cells += chunk.united_cells;
+    out.united_exactly += chunk.united_exactly;
+    out.doubted_unions += chunk.doubted_unions;
     excesses.insert(excesses.end(), chunk.excesses.begin(), chunk.excesses.end());
     out.overlapping_cells += chunk.overlapping_cells;
     out.shared_cells += chunk.shared_cells;
@@ -196,6 +252,7 @@ void Cutter::Workspace::collect(CutCells& out) {
       scatter_faces(chunks[c].faces[axis], grid.cells(0) + (axis == 0), grid.cells(1) + (axis == 1), out.faces[axis]);
     note_entries(chunks[c]);
   });
+  for (const ColumnChunk& chunk : chunks) parts.insert(parts.end(), chunk.parts.begin(), chunk.parts.end());
 }
 
 void Cutter::Workspace::collect_uncertain(CutCells& out) const {
@@ -221,9 +278,15 @@ void Cutter::Workspace::collect_pieces(std::span<const BodySurface> bodies, CutC
     WallPiece* next = out.pieces.data() + piece_start[at];
     const ClippedChunk& from = clipped[b][c];
     for (std::size_t r = 0; r < from.records.size(); ++r) {
-      if (from.entry[r] < 0) continue;
-      const PieceRecord& piece = from.records[r];
-      *next++ = {static_cast<std::int32_t>(b),  piece.triangle, from.entry[r], piece.area, piece.weights,
+      if (from.entry[r] == -1) continue;
+      PieceRecord piece = from.records[r];
+      std::int64_t entry = from.entry[r];
+      if (entry < -1) {
+        const PiecePart& part = parts[static_cast<std::size_t>(-2 - entry)];
+        piece.area = part.area, piece.weights = part.weights;
+        entry = part.entry;
+      }
+      *next++ = {static_cast<std::int32_t>(b),  piece.triangle, entry, piece.area, piece.weights,
                  height(grid, bodies[b], piece)};
     }
   });

@@ -2,6 +2,7 @@
 #include "geometry/columns.hpp"
 #include "geometry/cut_cells.hpp"
 #include "geometry/debris.hpp"
+#include "geometry/joint_pieces.hpp"
 #include "geometry/placed_surface.hpp"
 
 namespace polynya::geometry {
@@ -17,6 +18,10 @@ struct Cutter::Workspace {
   std::vector<std::array<std::size_t, 2>> clips;   ///< body and chunk of triangles of all of them
   std::vector<ColumnChunk> chunks;                 ///< [chunks of columns]
   std::vector<FaceExcess> excesses;
+  std::vector<std::vector<std::array<double, 3>>> shifts;  ///< [bodies], joint_shifts
+  std::vector<UnionBody> union_bodies;                     ///< empty: one body at most has a surface
+  UnionMethod union_method;
+  std::vector<PiecePart> parts;          ///< of all chunks of columns
   std::vector<std::size_t> piece_start;  ///< [clips + 1]
   DebrisDeposit debris;
   bool complete = false;  ///< `clipped` belongs to `surfaces`: no error came between
@@ -24,6 +29,7 @@ struct Cutter::Workspace {
   /// Columns of cells, and one more along x and y for the last planes.
   std::size_t columns() const { return static_cast<std::size_t>((grid.cells(0) + 1) * (grid.cells(1) + 1)); }
   std::int64_t clip(std::span<const BodySurface> bodies);  ///< returns how many triangles were kept
+  void prepare_union(std::span<const BodySurface> bodies);
   void sum(std::span<const BodySurface> bodies);
   void collect(CutCells& out);
   void collect_uncertain(CutCells& out) const;

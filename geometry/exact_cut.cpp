@@ -148,14 +148,15 @@ std::size_t recut_uncertain(CutCells& cut, std::span<const BodySurface> bodies, 
       if (doubt.body != static_cast<std::int32_t>(b)) continue;
       if (!body) body.emplace(grid, bodies[b]);
       const auto entry = static_cast<std::size_t>(doubt.entry);
-      cut.body_volume[entry * cut.bodies + b] = body->cut(cut.cell[entry]).volume;
+      double& volume = cut.body_volume[entry * cut.bodies + b];
+      const double exact = body->cut(cut.cell[entry]).volume;
+      cut.solid_volume[entry] += exact - volume;  // what two bodies have in common stays
+      volume = exact;
     }
   }
   for (const UncertainVolume& doubt : cut.uncertain) {
     const auto entry = static_cast<std::size_t>(doubt.entry);
-    double sum = 0;
-    for (std::size_t b = 0; b < cut.bodies; ++b) sum += cut.body_volume[entry * cut.bodies + b];
-    cut.solid_volume[entry] = std::clamp(sum, 0.0, grid.cell_volume(cut.cell[entry]));
+    cut.solid_volume[entry] = std::clamp(cut.solid_volume[entry], 0.0, grid.cell_volume(cut.cell[entry]));
   }
   return cut.uncertain.size();
 }

@@ -32,4 +32,8 @@ void clip_exactly(const std::array<LineLocator, 3>& lines, std::span<const Basic
                   std::span<const std::int32_t> triangles, std::size_t begin, std::size_t end,
                   std::vector<PieceRecord>& records);
 
+/// The cutter's search for surfaces inside other bodies in exact numbers, for Cutter::set_exact_union.
+bool add_below_exactly(const JointCell& cell, const JointTriangle& piece, std::span<const JointTriangle> others,
+                       JointSum& sum);
+
 }  // namespace polynya::geometry

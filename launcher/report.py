@@ -24,6 +24,7 @@ HEALTH = (("energy error", "energy_error", "%"), ("momentum error", "momentum_er
 
 NOT_SHOWN = {"end_time", "filter_frequency", "shoulder_clear_speed", "windows", "free_windows", "spans", "overlap_cuts",
              "overlap_cells", "overlap_cells_exact", "overlap_cells_two_bodies",
+             "overlap_cells_united", "overlap_cells_united_exactly", "overlap_cells_doubted",
              "overlap_triangles_kept", "largest_energy_error", "largest_momentum_error", "deepest_contact", "peak_wall_pressure"}
 
 
