@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "bench/blocks.hpp"
 #include "bench/kernels.hpp"
 #include "core/continuum/explicit_solid.hpp"
 
@@ -7,21 +8,6 @@ namespace polynya::bench {
 namespace {
 
 using namespace continuum;
-
-HexMesh cube(int n, double side) {
-  HexMesh mesh;
-  for (int k = 0; k <= n; ++k)
-    for (int j = 0; j <= n; ++j)
-      for (int i = 0; i <= n; ++i) mesh.nodes.insert(mesh.nodes.end(), {side * i / n, side * j / n, side * k / n});
-  const auto node = [&](int i, int j, int k) { return i + (n + 1) * (j + (n + 1) * k); };
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
-        for (int z = k; z <= k + 1; ++z)
-          mesh.elements.insert(mesh.elements.end(),
-                               {node(i, j, z), node(i + 1, j, z), node(i + 1, j + 1, z), node(i, j + 1, z)});
-  return mesh;
-}
 
 struct Swing {
   ExplicitSolid solid;

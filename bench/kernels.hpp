@@ -32,5 +32,6 @@ std::vector<Figure> contact_evaluate();
 std::vector<Figure> window();
 std::vector<Figure> fluid_step();
 std::vector<Figure> fluid_sleeping();
+std::vector<Figure> solid_sleeping();
 
 }  // namespace polynya::bench

@@ -71,6 +71,7 @@ const Kernel kernels[] = {
     {"coupling.window", window},
     {"fluid.cell", fluid_step},
     {"fluid.sleeping", fluid_sleeping},
+    {"ice.sleeping", solid_sleeping},
 };
 
 int run(int argc, char** argv) {

@@ -94,6 +94,7 @@ void move_rollers(BendingRig& rig, IceBody& beam, double time, double dt) {
   const double velocity = rig.speed * smooth_ramp(time + 0.5 * dt, rig.ramp_time);
   for (const std::int32_t node : rig.loads) {
     const auto n = static_cast<std::size_t>(node);
+    continuum::wake(beam.solid, n);
     double& v = beam.solid.velocities[3 * n + 2];
     // The account has opened this step with the old velocity: kinetic energy, and half a step of the work of the
     // reaction and of the elements.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/compute/pack.hpp"
 #include "ice_solver/ice_body.hpp"
 
 namespace polynya::ice {
@@ -68,9 +69,13 @@ void convert(IceBody& ice, std::size_t e) {
 std::vector<std::int32_t> collapsed_elements(const IceBody& ice) {
   std::vector<std::int32_t> list;
   const auto& element = ice.solid.element;
-  for (std::size_t e = 0; e < ice.first_step.size(); ++e)
-    if (element.alive[e] != 0 && element.step_limit[e] < ice.options.collapsed_step * ice.first_step[e])
-      list.push_back(static_cast<std::int32_t>(e));
+  const std::size_t chunk_elements = ice.solid.chunks.packs_per_chunk * compute::pack_width;
+  for (std::size_t c = 0; c < ice.solid.chunks.chunk_count(); ++c) {
+    if (ice.solid.sleeping.chunk_sleeps(c)) continue;
+    for (std::size_t e = c * chunk_elements; e < std::min(ice.first_step.size(), (c + 1) * chunk_elements); ++e)
+      if (element.alive[e] != 0 && element.step_limit[e] < ice.options.collapsed_step * ice.first_step[e])
+        list.push_back(static_cast<std::int32_t>(e));
+  }
   return list;
 }
 

@@ -59,6 +59,7 @@ IceBody make_ice(const IceOptions& options) {
   ice.options = options;
   ice.solid = continuum::make_solid("ice", mesh_of(options), options.law, options.numerics);
   hold_supports(ice.solid, options.supports);
+  ice.solid.sleeping.threshold = options.sleeping_threshold;
   constrain_plate(ice.solid, options.planes, options.sides);
   release_waves(ice.solid, options.supports);
   if (options.damping > 0) continuum::add_mass_damping(ice.solid, options.damping);

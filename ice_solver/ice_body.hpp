@@ -48,6 +48,7 @@ struct IceOptions {
   double collapsed_step =
       0.1;             ///< an element is also converted when its stable step falls below this part of its first
   double gravity = 0;  ///< m/s^2, along -z
+  double sleeping_threshold = 0;  ///< continuum::Sleeping
   /// Particles meet intact ice that they are not bonded to by contact, not through the sums; surfaces meet by contact.
   bool own_contact = false;
   double contact_friction = 0, contact_stiffness_factor = 0.1;

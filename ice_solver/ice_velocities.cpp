@@ -88,14 +88,14 @@ struct MomentumBalance {
   }
 };
 
-/// A free node feels the damped boundary through its internal force, whose sum would else be zero; a held one has its
-/// other forces taken by what holds it. Pair forces are internal, but for those of mirror images.
+/// A free node feels the damped boundary through its internal force, whose sum would else be zero; a held one, or one
+/// that sleeps, has its other forces taken by what holds it. Pair forces are internal, but for those of mirror images.
 void add_node(const IceBody& ice, std::size_t n, MomentumBalance& sum) {
   const auto& solid = ice.solid;
   const double mass = solid.masses[n];
   for (std::size_t c = 0; c < 3; ++c) {
     const std::size_t k = 3 * n + c;
-    const bool is_free = mass > 0 && (solid.fixed[n] >> c & 1) == 0;
+    const bool is_free = mass > 0 && !solid.sleeping.node_sleeps(n) && (solid.fixed[n] >> c & 1) == 0;
     sum.boundary[c] += ice.pair_force[k] + (is_free ? solid.internal_force[k] : -ice.nodal_force[k]);
     sum.momentum[c] += mass * solid.velocities[k];
   }
@@ -145,6 +145,7 @@ void advance_velocities(IceBody& ice, std::span<const double> node_loads, std::s
                         double dt_previous, double dt_next) {
   const auto lap = ice.watch.lap("velocities");
   collect_nodal_force(ice, node_loads);
+  if (dt_previous == 0) continuum::let_sleep(ice.solid, ice.nodal_force, dt_next);
   const Powers closing = powers(ice, particle_loads);
   continuum::advance_velocities(ice.solid, ice.nodal_force, dt_previous, dt_next);
   advance_particles(ice, particle_loads, dt_previous, dt_next);

@@ -19,6 +19,8 @@ nlohmann::json last_words(const IceRun& run) {
           {"steps", run.steps},
           {"smallest_step", run.smallest_step},
           {"list_builds", run.ice.list.builds()},
+          {"awake_fraction", run.ice.solid.sleeping.share_awake()},
+          {"sleeping_threshold", run.ice.solid.sleeping.threshold},
           {"multiplicity", factor},
           {"energies",
            {{"kinetic", factor * a.kinetic},

@@ -66,6 +66,7 @@ void write_report(const Options& options, const ice::IceRun& run, const exchange
   report.counts = {{"steps", static_cast<double>(run.steps)},
                    {"elements", static_cast<double>(run.ice.solid.element_count())},
                    {"particles", static_cast<double>(run.ice.particles.count())},
+                   {"awake_percent", 100 * run.ice.solid.sleeping.share_awake()},
                    {"list_builds", static_cast<double>(run.ice.list.builds())}};
   report.write(options.out, options.name);
 }

@@ -69,6 +69,7 @@ IceOptions options_from_scene(const scene::Scene& scene) {
   options.contact_friction = scene.contact.friction;
   options.contact_stiffness_factor = scene.contact.stiffness_factor;
   options.gravity = scene.run.gravity;
+  options.sleeping_threshold = ice.sleeping_threshold;
   return options;
 }
 

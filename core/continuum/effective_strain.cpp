@@ -68,6 +68,7 @@ std::vector<std::int32_t> elements_above_strain(const ExplicitSolid& solid, doub
   std::vector<std::vector<std::int32_t>> found((packs + chunk - 1) / chunk);
   compute::for_chunks(packs, chunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t pack = begin; pack < end; ++pack) {
+      if (solid.sleeping.chunk_sleeps(pack / solid.chunks.packs_per_chunk)) continue;
       if (solid.idle[pack] || !may_exceed(solid, pack, bound)) continue;
       for (std::size_t e = pack * w; e < std::min(solid.element_count(), (pack + 1) * w); ++e)
         if (solid.element.alive[e] != 0 && effective_strain(solid, e) > critical_strain)

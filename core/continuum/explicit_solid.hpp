@@ -11,6 +11,7 @@
 #include "core/continuum/law.hpp"
 #include "core/continuum/material_point.hpp"
 #include "core/continuum/nodal_lanes.hpp"
+#include "core/continuum/sleeping.hpp"
 #include "core/continuum/surface.hpp"
 
 /// A body of hexahedra, with one point or with eight, moved by central differences: state and the steps that change it.
@@ -105,6 +106,7 @@ struct ExplicitSolid {
   ElementState element;
   std::vector<PointArrays> points;  ///< [8] with full integration, else none
   DampedNodes damped;
+  Sleeping sleeping;
   double step_limit = 0;  ///< s, of the last internal_forces
 
   // Bookkeeping of the energy account: see advance_velocities. internal_work: against the forces of the elements, all
@@ -129,8 +131,8 @@ struct ExplicitSolid {
   std::size_t node_count() const { return masses.size(); }
   std::size_t element_count() const { return mesh.element_count(); }
 
-  POLYNYA_STATE_WITHOUT((name, law, numerics, connectivity, chunks, force_shares), name, mesh, law, numerics, time,
-                        positions, velocities, internal_force, masses, fixed, living_elements, element, points, damped,
+  POLYNYA_STATE_WITHOUT((name, law, numerics, connectivity, chunks), name, mesh, law, numerics, time, positions,
+                        velocities, internal_force, masses, fixed, living_elements, element, points, damped, sleeping,
                         step_limit, kinetic_energy, internal_work, hourglass_energy, viscous_energy, external_work,
                         boundary_flux, removed_energy, step_change, pending_internal_work, pending_external_work,
                         pending_boundary_flux, pending_step_change, connectivity, natural_hourglass, irregular,

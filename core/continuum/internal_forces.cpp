@@ -69,6 +69,7 @@ void add_shared_forces(ExplicitSolid& solid) {
   const ElementChunks& chunks = solid.chunks;
   compute::for_chunks(chunks.shared_nodes.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
+      if (!solid.sleeping.all_awake && solid.sleeping.node_asleep[chunks.shared_nodes[n]] == 2) continue;
       std::array<double, 3> sum{};
       for (std::int32_t k = chunks.share_start[n]; k < chunks.share_start[n + 1]; ++k)
         for (std::size_t i = 0; i < 3; ++i) sum[i] += solid.force_shares[chunks.share_of[k]].value[i];

@@ -59,16 +59,23 @@ template <Integration integration, class T, class LawType>
 void advance_all_elements(ExplicitSolid& solid, const LawType& law, double dt) {
   const std::size_t packs_per_chunk = solid.chunks.packs_per_chunk;
   std::vector<ChunkReport> reports(solid.chunks.chunk_count());
-  compute::for_chunks(solid.idle.size(), packs_per_chunk, [&](std::size_t begin, std::size_t end) {
+  const auto advance_chunk = [&](std::size_t begin, std::size_t end) {
     thread_local ChunkNodes nodes;
     const std::size_t chunk = begin / packs_per_chunk;
+    if (solid.sleeping.chunk_sleeps(chunk)) return;
     stage_nodes(solid, chunk, nodes);
     reports[chunk] = advance_packs<integration, T>(solid, law, begin, end, dt, nodes);
     hand_out_forces(nodes, chunk, solid);
-  });
+  };
+  if (solid.sleeping.all_awake)
+    compute::for_chunks(solid.idle.size(), packs_per_chunk, advance_chunk);
+  else
+    compute::for_uneven_chunks(solid.idle.size(), packs_per_chunk, advance_chunk);
+  solid.sleeping.count_step(solid.element_count());
   add_shared_forces(solid);
   std::size_t bad_pack = std::numeric_limits<std::size_t>::max();
   for (std::size_t c = 0; c < reports.size(); ++c) {
+    if (solid.sleeping.chunk_sleeps(c)) continue;  // its step limit stays what it was
     solid.hourglass_energy += reports[c].hourglass;
     solid.viscous_energy += reports[c].viscous;
     solid.chunk_step_limit[c] = reports[c].step_limit;

@@ -129,7 +129,7 @@ void add_boundary_traction(ExplicitSolid& solid, std::span<const double> externa
   for (std::size_t k = 0; k < solid.damped.nodes.size(); ++k) {
     const auto n = static_cast<std::size_t>(solid.damped.nodes[k]);
     const double mass = solid.masses[n];
-    if (!(mass > 0)) continue;
+    if (!(mass > 0) || solid.sleeping.node_sleeps(n)) continue;
     const Eigen::Matrix3d damping = symmetric(&solid.damped.damping[6 * k]);
     const Eigen::Map<const Eigen::Vector3d> old(&solid.velocities[3 * n]), external(&external_force[3 * n]),
         held(&solid.damped.static_force[3 * k]);

@@ -14,7 +14,7 @@ namespace polynya::continuum {
 namespace {
 
 using compute::Pack, compute::pack_width;
-constexpr std::size_t chunk = 4096;
+constexpr std::size_t chunk = Sleeping::block;
 
 /// What a step does to the energy account, J.
 struct Work {
@@ -40,7 +40,7 @@ void advance_component(double mass, double internal, double external, bool fixed
 
 void advance_node(ExplicitSolid& solid, std::size_t n, std::span<const double> external, double before, double after,
                   Work& work) {
-  if (!(solid.masses[n] > 0)) return;
+  if (!(solid.masses[n] > 0) || solid.sleeping.node_sleeps(n)) return;
   for (std::size_t i = 0; i < 3; ++i)
     advance_component(solid.masses[n], solid.internal_force[3 * n + i], external[3 * n + i],
                       (solid.fixed[n] >> i & 1) != 0, before, after, solid.velocities[3 * n + i], work);
@@ -76,12 +76,15 @@ bool all_free(const ExplicitSolid& solid, std::size_t n) {
     held |= solid.fixed[k] != 0;
     massless |= !(solid.masses[k] > 0);
   }
+  if (!solid.sleeping.all_awake)
+    for (std::size_t k = n; k < n + pack_width; ++k) held |= solid.sleeping.node_asleep[k] != 0;
   return !held && !massless;
 }
 
 Work advance_chunk(ExplicitSolid& solid, std::size_t begin, std::size_t end, std::span<const double> external,
                    double before, double after) {
   Work work;
+  if (solid.sleeping.block_sleeps(begin / chunk)) return work;
   PackWork packs;
   std::size_t n = begin;
   for (; n + pack_width <= end; n += pack_width) {
@@ -123,7 +126,8 @@ Work advance_nodes(ExplicitSolid& solid, std::span<const double> external, doubl
 }  // namespace
 
 void advance_positions(ExplicitSolid& solid, double dt) {
-  compute::for_chunks(solid.positions.size(), 2 * chunk, [&](std::size_t begin, std::size_t end) {
+  compute::for_chunks(solid.positions.size(), 3 * chunk, [&](std::size_t begin, std::size_t end) {
+    if (solid.sleeping.block_sleeps(begin / (3 * chunk))) return;
     for (std::size_t i = begin; i < end; ++i) solid.positions[i] += dt * solid.velocities[i];
   });
   solid.time += dt;
@@ -139,6 +143,7 @@ void advance_velocities(ExplicitSolid& solid, std::span<const double> external_f
   solid.internal_work += solid.pending_internal_work;
   solid.pending_external_work = solid.pending_boundary_flux = solid.pending_internal_work = 0;
   solid.step_change += solid.pending_step_change;
+  wake_where_pushed(solid, external_force, std::max(dt_previous, dt_next));
   add_boundary_traction(solid, external_force, dt_previous, dt_next);
   const Work work = advance_nodes(solid, external_force, dt_previous, dt_next);
   solid.kinetic_energy = work.kinetic;
@@ -187,6 +192,7 @@ RemovedElement remove_element(ExplicitSolid& solid, std::size_t element) {
   if (element >= solid.element_count() || solid.element.alive[element] == 0)
     throw std::invalid_argument(solid.name + ": element " + std::to_string(element) + " is not there to be removed");
   RemovedElement removed;
+  for (std::size_t a = 0; a < 8; ++a) wake(solid, static_cast<std::size_t>(solid.mesh.elements[8 * element + a]));
   solid.element.alive[element] = 0;
   solid.element.step_limit[element] = 1e300;
   const std::int32_t* nodes = &solid.mesh.elements[8 * element];

@@ -145,6 +145,22 @@ Decision sleeping(const Scene& scene) {
   return {true, std::string("the fluid starts at rest; ") + bound};
 }
 
+/// Only ice that is at rest under forces that balance sleeps.
+Decision ice_sleeping(const Scene& scene) {
+  if (!scene.ice) return impossible("the scene has no ice");
+  if (scene.ice->ball) return impossible("all of a ball moves from the start");
+  if (scene.ice->bending) return {false, "rollers bend all of the beam"};
+  if (scene.fluid && scene.vehicle && scene.fluid->start == "potential_flow")
+    return {false, "the flow around the moving vehicle presses on all of the ice from the start"};
+  if (scene.run.gravity != 0 && scene.ice->start != "equilibrium")
+    return {false, "its weight sets all of the ice in motion from the start"};
+  char reason[120];
+  std::snprintf(reason, sizeof reason,
+                "the ice starts at rest; what would move nodes by less than %g of wave speed is dropped",
+                scene.ice->sleeping_threshold);
+  return {true, reason};
+}
+
 /// In the order of the decisions: later rules look at what earlier ones decided (fluid is decided before).
 const std::vector<Rule>& rules() {
   static const std::vector<Rule> list{
@@ -174,6 +190,10 @@ const std::vector<Rule>& rules() {
       {"sleeping", sleeping,
        [](Scene& s) {
          if (s.fluid) s.fluid->sleeping_threshold = 0;
+       }},
+      {"ice_sleeping", ice_sleeping,
+       [](Scene& s) {
+         if (s.ice) s.ice->sleeping_threshold = 0;
        }},
   };
   return list;

@@ -113,12 +113,13 @@ struct Ice {
   double lower_face = 0;                        ///< m, z of the lower face
   std::string material;
   double critical_strain = 0;
-  std::string sides;        ///< "non_reflecting", "free", "clamped" or "clamped_ends"
-  double damping = 0;       ///< 1/s, force over mass and velocity; 0: none
-  double held_rim = 0;      ///< m, width of a rim of the upper face whose nodes are held; 0: none
-  std::string start;        ///< "equilibrium" with the loads it starts under, or "unloaded"
-  std::string particles;    ///< what a converted element becomes: "element_centre", "free_masses" or "none"
-  std::string integration;  ///< points per element: "one_point" or "full" (2 x 2 x 2)
+  std::string sides;              ///< "non_reflecting", "free", "clamped" or "clamped_ends"
+  double damping = 0;             ///< 1/s, force over mass and velocity; 0: none
+  double held_rim = 0;            ///< m, width of a rim of the upper face whose nodes are held; 0: none
+  std::string start;              ///< "equilibrium" with the loads it starts under, or "unloaded"
+  std::string particles;          ///< what a converted element becomes: "element_centre", "free_masses" or "none"
+  std::string integration;        ///< points per element: "one_point" or "full" (2 x 2 x 2)
+  double sleeping_threshold = 0;  ///< relative disturbance below which elements sleep; 0: none does
   std::optional<Bending> bending;
   std::optional<Ball> ball;
   std::optional<IceMesh> mesh;  ///< then the sizes are those of its box, mirrored at x = 0 and y = 0

@@ -155,6 +155,11 @@ std::vector<KeyRule> solid_rules() {
           "ice.integration", {"one_point", "full"}, "one_point",
           "points of an element at which the law is asked: its centre, with forces against hourglass modes; or 2 x 2 x "
           "2 without such forces, slower, for comparison"),
+      positive(
+          "ice.sleeping_threshold", dim::none, "1e-7",
+          "disturbance below which chunks of elements that nothing has moved yet sleep: the speed over wave speed that "
+          "unbalanced forces would give a node in 1,000 steps",
+          1e-3),
       positive("ice.ball.diameter", dim::length, "required",
                "of a ball of ice that falls on a rigid, smooth plate at `lower_face`, instead of a plate of ice"),
       positive("ice.ball.speed", dim::speed, "required", "of the ball, downward", 1000),

@@ -114,6 +114,7 @@ Ice read_ice(const Values& values, const std::string& mesh) {
   ice.particles = values.text("ice.particles");
   ice.integration = values.text("ice.integration");
   ice.held_rim = values.number("ice.held_rim");
+  ice.sleeping_threshold = values.number("ice.sleeping_threshold");
   if (2 * ice.held_rim > std::min(ice.length, ice.width))
     values.fail("ice.held_rim", "must be at most half of ice.length and ice.width");
   if (values.has("ice.ball")) {

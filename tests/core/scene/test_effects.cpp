@@ -48,6 +48,21 @@ TEST(Effects, FluidSleepsWhereAutoFindsItAtRestAtTheStart) {
       std::string::npos);
 }
 
+TEST(Effects, IceSleepsWhereAutoFindsItAtRestUnderForcesThatBalance) {
+  const Scene heavy = resolve(case_folder("vehicle_drop"));
+  EXPECT_FALSE(base_scene().effect("ice_sleeping"));
+  EXPECT_EQ(base_scene().ice->sleeping_threshold, 0);
+  const Scene light = resolve(case_folder("vehicle_drop"), {.level = {}, .settings = {"effects.gravity=off"}});
+  EXPECT_TRUE(light.effect("ice_sleeping"));
+  EXPECT_EQ(light.ice->sleeping_threshold, 1e-7);
+  EXPECT_NE(light.effects.at("ice_sleeping").reason.find("1e-07"), std::string::npos);
+  EXPECT_EQ(heavy.effect("ice_sleeping"), heavy.run.gravity == 0);
+  const Scene asked = base_scene({"effects.ice_sleeping=on", "ice.sleeping_threshold=1e-6"});
+  EXPECT_EQ(asked.ice->sleeping_threshold, 1e-6);
+  EXPECT_NE(message_of(case_folder("ice_ball"), {.level = {}, .settings = {"effects.ice_sleeping=on"}}).find("ball"),
+            std::string::npos);
+}
+
 TEST(Effects, PlanesBetweenWaterAndAirBelongToEveryFluid) {
   for (const std::string name : {"water_exit", "vehicle_in_water", "dam_break", "shock_tube"})
     EXPECT_TRUE(resolve(case_folder(name)).effect("interface_reconstruction")) << name;
