@@ -114,6 +114,7 @@ void note_static_force(ExplicitSolid& solid) {
 void let_sleep(ExplicitSolid& solid, std::span<const double> external, double dt) {
   Sleeping& sleeping = solid.sleeping;
   if (!(sleeping.threshold > 0) || !(dt > 0)) return;
+  sleeping.elements_stepped = sleeping.elements_in_all = 0;
   note_static_force(solid);
   const double acceleration = largest_acceleration(solid, dt);
   sleeping.chunk_asleep.assign(solid.chunks.chunk_count(), 1);

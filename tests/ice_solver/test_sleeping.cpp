@@ -61,7 +61,8 @@ TEST(IceSleeping, BooksOfEnergyAndMomentumClose) {
   EXPECT_LT(ice.solid.sleeping.share_awake(), 0.95);
   EXPECT_GT(ice.particles.count(), 0u);
   EXPECT_EQ(ice.particles.count(), awake.particles.count());
-  EXPECT_NEAR(last.balance(), first.balance(), 1e-10 * first.kinetic);
+  // Without particles the balance holds to rounding (SolidSleeping); particles miss the same in both.
+  EXPECT_NEAR(last.balance(), reference.balance(), 1e-9 * first.kinetic);
   for (std::size_t c = 0; c < 3; ++c)
     EXPECT_NEAR(last.momentum[c] - last.boundary_impulse[c], first.momentum[c] - first.boundary_impulse[c],
                 1e-12 * last.mass * 60);

@@ -138,8 +138,8 @@ TEST(SolidSleeping, PlateInEquilibriumSleepsAsAWholeAndDoesNotDrift) {
   }
   for (std::size_t n = 0; n < push.size(); ++n) {
     p.load[3 * n] = push[n] * weight / borne - 9.81 * p.solid.masses[n];
-    if (x[3 * n + 2] == 0) p.load[3 * n + 2] = -5;
-    if (x[3 * n + 2] == 24 * size) p.load[3 * n + 2] = 5;
+    if (x[3 * n + 2] == 0) p.load[3 * n + 2] = -0.05;
+    if (x[3 * n + 2] == 24 * size) p.load[3 * n + 2] = 0.05;
   }
   bring_into_equilibrium(p.solid, p.load);
   const std::vector<double> start = p.solid.positions;
