@@ -33,6 +33,7 @@ struct Numerics {
   double linear_viscosity = 0.06;
   double hourglass_stiffness = 1;     ///< of what an element's bending means (hourglass.hpp)
   double hourglass_viscosity = 0.05;  ///< decay rate of an hourglass mode in units of wave speed / length
+  double hourglass_floor = 0.01;      ///< the part of it that the cap leaves to laws that do not see the modes
   double hourglass_flowed = 0.3;      ///< the part of the stiffness that plastic flow leaves
   Integration integration = Integration::one_point;
 };

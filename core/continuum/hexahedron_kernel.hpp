@@ -136,11 +136,16 @@ POLYNYA_INLINE Spread<T> spread_about_mean(const Numerics& numerics, const LawTy
           dt * square_root(T(per_stiffness * weighted_square(k, rate)))};
 }
 
+/// Laws that see how stress and strain vary about the mean.
+template <class LawType, class T>
+concept SeesSpread = requires(const LawType& law, PointState<T>& state, SymmetricTensor<T> strain, T dt,
+                              Spread<T> spread) { advance_stress(law, state, strain, dt, spread); };
+
 /// One step of the law; spread() is asked for by laws that see more than the mean.
 template <class LawType, class T, class SpreadFunction>
 POLYNYA_INLINE T advance_mean_stress(const LawType& law, PointState<T>& state, const SymmetricTensor<T>& strain, T dt,
                                      const SpreadFunction& spread) {
-  if constexpr (requires { advance_stress(law, state, strain, dt, spread()); })
+  if constexpr (SeesSpread<LawType, T>)
     return advance_stress(law, state, strain, dt, spread());
   else
     return advance_stress(law, state, strain, dt);
@@ -152,7 +157,8 @@ POLYNYA_INLINE HourglassInput<T> hourglass_input(const Numerics& numerics, const
                                                  const PointState<T>& state, const T& flow, const T& area,
                                                  const T& inverse_length, const T& wave_speed) {
   const T rate = (1.0 / 64.0) * mass * wave_speed * inverse_length;
-  HourglassInput<T> in{undamaged, numerics.hourglass_viscosity * rate, flow * area * (1.0 / 12.0)};
+  const double floor = SeesSpread<LawType, T> ? 0.0 : numerics.hourglass_floor;
+  HourglassInput<T> in{undamaged, numerics.hourglass_viscosity * rate, floor * rate, flow * area * (1.0 / 12.0)};
   const T share = hourglass_share(numerics, law, state, flow);
   for (T& stiffness : in.stiffness) stiffness *= share;
   return in;

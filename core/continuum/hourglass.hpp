@@ -20,7 +20,8 @@
 ///
 /// Viscosity: on the rate R_m = c_m' - L c_m. The magnitudes of both are capped by the force at which bending would
 /// bring the outer fibre to the flow stress Y, Y A / 12 with A the face area: what a crushed element cannot carry, its
-/// hourglass modes do not carry either. Laws that ask for it see what the modes hold as a Spread about the mean.
+/// hourglass modes do not carry either. Laws that ask for it see what the modes hold as a Spread about the mean. Ductile
+/// ones do not and flow without end: a part of the viscosity is left to their modes, else their elements fold.
 namespace polynya::continuum {
 
 /// One vector for every mode 4..7.
@@ -31,6 +32,7 @@ template <class T>
 struct HourglassInput {
   std::array<T, 4> stiffness;  ///< k_m, N/m, damage and flow included
   T viscosity;                 ///< N s/m, nodal force per unit 8 |R|
+  T viscosity_floor;           ///< N s/m, left over by the cap
   T allowed;                   ///< N, largest magnitude of the nodal force
 };
 
@@ -113,7 +115,7 @@ POLYNYA_INLINE T add_hourglass_viscosity(const HourglassInput<T>& in, const Mode
                                          const T& inverse_volume, Modes<T>& force, Tensor<T>& stress) {
   const T square = square_of(rate);
   const T share = share_allowed(T(64.0 * in.viscosity * in.viscosity * square), in.allowed);
-  const T c = 8.0 * share * in.viscosity;
+  const T c = 8.0 * maximum(in.viscosity_floor, T(share * in.viscosity));
   const T per_volume = 8.0 * c * inverse_volume;
   for (int i = 0; i < 3; ++i) {
     for (int m = 0; m < 4; ++m) force[m + 4][i] -= c * rate[m][i];

@@ -84,7 +84,7 @@ double error_of(const Swing& swing) {
 Numerics elastic_only() {
   Numerics numerics;
   numerics.linear_viscosity = numerics.quadratic_viscosity = 0;
-  numerics.hourglass_viscosity = 0;
+  numerics.hourglass_viscosity = numerics.hourglass_floor = 0;
   return numerics;
 }
 

@@ -63,7 +63,7 @@ TEST(Energy, BalanceHoldsToRoundOffWithChangingStepsAndForces) {
 }
 
 TEST(Energy, InternalEnergyIsTheElasticEnergyOfTheStress) {
-  auto solid = make_solid("block", tests::block({8, 8, 8}, {8e-3, 8e-3, 8e-3}), elastic, {0, 0, 1, 0});
+  auto solid = make_solid("block", tests::block({8, 8, 8}, {8e-3, 8e-3, 8e-3}), elastic, {0, 0, 1, 0, 0});
   for (std::size_t n = 0; n < solid.node_count(); ++n) {  // a breathing, bending motion resolved by the mesh
     const double *x = &solid.mesh.nodes[3 * n], k = M_PI / 8e-3;
     solid.velocities[3 * n] = std::cos(k * x[0]);

@@ -13,7 +13,7 @@ namespace polynya::continuum {
 namespace {
 
 const Elastic ice_like{900, 8.13e9, 4.44e9};
-const Numerics bare{0, 0, 1, 0.05};  // no bulk viscosity
+const Numerics bare{0, 0, 1, 0.05, 0.01};  // no bulk viscosity
 
 ExplicitSolid distorted_block(Numerics numerics = {}, Law law = ice_like) {
   tests::Random random;

@@ -168,7 +168,7 @@ TEST(Hourglass, ForceIsCappedByTheFlowStress) {
 
 TEST(Hourglass, StiffnessGivesBackWhatItTook) {
   const Elastic law{900, 8.13e9, 4.44e9};
-  auto solid = make_solid("element", tests::block({1, 1, 1}, {1e-3, 1e-3, 1e-3}), law, {0, 0, 1, 0});
+  auto solid = make_solid("element", tests::block({1, 1, 1}, {1e-3, 1e-3, 1e-3}), law, {0, 0, 1, 0, 0});
   const auto none = std::vector<double>(24, 0.0);
   const auto mode = bent(law, 0, 1e-7, 0).positions;
   solid.positions = mode;
