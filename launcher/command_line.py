@@ -9,7 +9,8 @@ from typing import NoReturn
 
 from launcher import ROOT, WRONG_INPUT
 
-NEED_PACKAGES = {"build", "run", "resume", "replay", "explain", "test", "bench", "draw", "conform", "validate"}
+NEED_PACKAGES = {"build", "run", "resume", "replay", "explain", "test", "bench", "draw", "conform", "validate",
+                 "card"}
 
 
 class Parser(argparse.ArgumentParser):
@@ -98,6 +99,29 @@ def add_replay(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--threads", metavar="N", type=positive, help="threads to use (default: all cores)")
 
 
+def add_card(parser: argparse.ArgumentParser) -> None:
+    actions = parser.add_subparsers(dest="action", metavar="ACTION", required=True)
+    units = dict(metavar="M,L,T", help="units of mass, length and time, e.g. kg,m,s or ton,mm,s")
+    bring = actions.add_parser("import", help="a card from a deck")
+    bring.add_argument("file", metavar="FILE", help="a deck of LS-DYNA or Radioss")
+    bring.add_argument("--format", choices=("mat_110", "law79"), help="default: by the deck's keywords")
+    bring.add_argument("--units", **units)
+    bring.add_argument("--id", metavar="ID", help="which material, where the deck has several")
+    bring.add_argument("--origin", metavar="TEXT", help="of every value, e.g. \"literature: Cronin et al. 2003\"")
+    bring.add_argument("-o", metavar="OUT.toml", dest="output", help="default: standard output")
+    export = actions.add_parser("export", help="a deck from a card")
+    export.add_argument("card", metavar="CARD", help="a name in materials/, or a file")
+    export.add_argument("--format", choices=("mat_110", "law79"), required=True)
+    export.add_argument("--units", **units)
+    export.add_argument("--id", metavar="ID", type=positive, default=1, help="of the material in the deck; default: 1")
+    export.add_argument("--long", action="store_true", help="fields of 20 characters in *MAT_110")
+    export.add_argument("-o", metavar="OUT", dest="output", help="default: standard output")
+    for action in (bring, export):
+        action.add_argument("--lossy", action="store_true", help="also where the result is another law")
+    show = actions.add_parser("show", help="the values of a card and where they are from")
+    show.add_argument("card", metavar="CARD", help="a name in materials/, or a file")
+
+
 def build_parser() -> argparse.ArgumentParser:
     parser = Parser(prog="./polynya", description="Water exit of a vehicle through floating ice.",
                     epilog="Exit codes: 0 done, 1 failed, 2 wrong input.")
@@ -146,6 +170,8 @@ def build_parser() -> argparse.ArgumentParser:
                          help="for each answer; default: 60")
     conform.add_argument("--slow", metavar="SECONDS", type=seconds, default=2.0,
                          help="for which the coupler once says nothing; default: 2")
+
+    add_card(commands.add_parser("card", help="material cards from and to decks of LS-DYNA and Radioss"))
 
     draw = commands.add_parser("draw", help="draw the pictures of a run again")
     draw.add_argument("run", metavar="RUN", help="a run folder")
