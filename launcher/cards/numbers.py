@@ -42,13 +42,16 @@ def scientific(number: Decimal) -> str:
 
 
 def fit(value: Fraction, width: int) -> str:
-    """The decimal text nearest to the value among those that fit a field, with a point; plain where that is as near."""
+    """The decimal text nearest to the value among those that fit a field, with a point."""
     if value == 0:
         return "0.0"
     for digits in range(MOST_DIGITS, 0, -1):
         number = rounded(value, digits)
-        for text in (plain(number), scientific(number)):
-            if len(text) <= min(width, 16):
+        forms = [plain(number), scientific(number)]
+        if not -4 <= number.adjusted() < 12:
+            forms.reverse()
+        for text in forms:
+            if len(text) <= width:
                 return text
     raise ValueError(f"{float(value):g} does not fit {width} characters")
 
