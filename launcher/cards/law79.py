@@ -30,7 +30,7 @@ FIELDS = {"density": "RHO_I", "shear_modulus": "G", "bulk_modulus": "K1", "bulk_
 EROSION = {1: "erodes elements where P* + T* < 0, and drops the tensile limit of the pressure",
            2: "erodes elements beyond a plastic strain of EPSMAX (nearest: ice.critical_strain of a scene)",
            3: "erodes elements whose damage is 1"}
-# sigeps79.F (commit 0c91c23) adds (1 - scale) q / (3 sqrt(3) G); the law's plastic strain grows by (1 - scale) q / (3 G).
+# sigeps79.F (commit 0c91c23) adds (1 - scale) q / (3 sqrt(3) G), the law (1 - scale) q / (3 G).
 SLOWER_DAMAGE = ("OpenRadioss (source of 2023) counts 1/sqrt(3) of the law's plastic strain, so with the same D1 its "
                  "damage grows more slowly by that factor; D1 is left as it is")
 

@@ -41,6 +41,12 @@ def scientific(number: Decimal) -> str:
     return f"{'-' if sign else ''}{text[0]}.{text[1:] or '0'}e{exponent + len(digits) - 1}"
 
 
+def whole_mantissa(number: Decimal) -> str:
+    """9016.e1"""
+    sign, digits, exponent = number.as_tuple()
+    return f"{'-' if sign else ''}{''.join(map(str, digits))}.e{exponent}"
+
+
 def fit(value: Fraction, width: int) -> str:
     """The decimal text nearest to the value among those that fit a field, with a point."""
     if value == 0:
@@ -50,6 +56,7 @@ def fit(value: Fraction, width: int) -> str:
         forms = [plain(number), scientific(number)]
         if not -4 <= number.adjusted() < 12:
             forms.reverse()
+        forms.append(whole_mantissa(number))  # 9016123.e4: a digit more than 9.01612e10
         for text in forms:
             if len(text) <= width:
                 return text
