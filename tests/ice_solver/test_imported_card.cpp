@@ -17,7 +17,8 @@ namespace {
 
 using continuum::JohnsonHolmquist2;
 
-// Cronin et al. 2003, 4th European LS-DYNA Conf., in the table's own units mm, ton, s; density as in materials/alumina.toml.
+// Cronin et al. 2003, 4th European LS-DYNA Conf., in the table's own units mm, ton, s; density as in
+// materials/alumina.toml.
 const char* const deck =
     "*KEYWORD\n*MAT_JOHNSON_HOLMQUIST_CERAMICS_TITLE\nalumina\n"
     "         1   3.70E-9   90160.0      0.93      0.31       0.0      0.60      0.60\n"
