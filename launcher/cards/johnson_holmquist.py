@@ -81,8 +81,8 @@ def check(values: dict[str, Fraction], place: Callable[[str], str]) -> None:
 
 
 def pressure_at_limit(values: dict[str, Fraction]) -> Fraction:
-    """P_HEL from HEL = P(mu) + 4/3 G mu / (1 + mu), P = K1 mu + K2 mu^2 + K3 mu^3, to 12 digits: what LS-DYNA does where
-    PHEL is 0 on input (manual, volume II, *MAT_110). Raises ValueError where no compression up to 2 reaches HEL."""
+    """P_HEL from HEL = P(mu) + 4/3 G mu / (1 + mu), P = K1 mu + K2 mu^2 + K3 mu^3, to 12 digits: what LS-DYNA does
+    where PHEL is 0 on input (manual, volume II, *MAT_110). Raises ValueError where no mu up to 2 reaches HEL."""
     k1, k2, k3, g, limit = (float(values[name]) for name in (
         "bulk_modulus", "bulk_modulus_2", "bulk_modulus_3", "shear_modulus", "hugoniot_elastic_limit"))
 

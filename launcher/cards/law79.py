@@ -1,8 +1,8 @@
 """/MAT/LAW79 (/MAT/JOHN_HOLM) of Radioss and OpenRadioss starter decks, fixed fields of 20 characters.
 
 Layout and meanings: Altair's Radioss reference guide, /MAT/LAW79, /UNIT and /BEGIN; OpenRadioss, hm_read_mat79.F (IDEL,
-EPSMAX and FCUT from input version 2023 on) and sigeps79.F. T, HEL, PHEL, G and K1 to K3 are stresses, SFMAX is normalised
-by sigma_HEL. Units are those of /UNIT where the card names one, else the input units of /BEGIN.
+EPSMAX and FCUT from input version 2023 on) and sigeps79.F. T, HEL, PHEL, G and K1 to K3 are stresses, SFMAX is
+normalised by sigma_HEL. Units are those of /UNIT where the card names one, else the input units of /BEGIN.
 """
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ FIELDS = {"density": "RHO_I", "shear_modulus": "G", "bulk_modulus": "K1", "bulk_
 EROSION = {1: "erodes elements where P* + T* < 0, and drops the tensile limit of the pressure",
            2: "erodes elements beyond a plastic strain of EPSMAX (nearest: ice.critical_strain of a scene)",
            3: "erodes elements whose damage is 1"}
-# sigeps79.F (commit 0c91c23) adds (1 - scale) q / (3 sqrt(3) G) where the law's plastic strain grows by (1 - scale) q / (3 G).
-SLOWER_DAMAGE = ("OpenRadioss (source of 2023) counts a plastic strain 1/sqrt(3) of that of the law: with the same D1 its "
-                 "damage grows more slowly by that factor. D1 is the card's")
+# sigeps79.F (commit 0c91c23) adds (1 - scale) q / (3 sqrt(3) G), the law (1 - scale) q / (3 G).
+SLOWER_DAMAGE = ("OpenRadioss (source of 2023) counts 1/sqrt(3) of the law's plastic strain, so with the same D1 its "
+                 "damage grows more slowly by that factor; D1 is left as it is")
 
 Block = tuple[list[str], str, list[tuple[int, str]]]
 
@@ -93,8 +93,8 @@ def card_of(file: Path, words: list[str], place: str, lines: list[tuple[int, str
     title, data = (lines[0][1].strip(), lines[1:]) if lines else ("", [])
     if len(data) < len(CARDS):
         names = [name for name, _ in CARDS[len(data)] if name]
-        raise WrongInput(f"{place}: {KIND} ends after {len(data)} of {len(CARDS)} lines of fields; line {len(data) + 1} "
-                         f"after the title must hold {', '.join(names)}")
+        raise WrongInput(f"{place}: {KIND} ends after {len(data)} of {len(CARDS)} lines of fields; line "
+                         f"{len(data) + 1} after the title must hold {', '.join(names)}")
     fields: dict[str, Field] = {}
     for (number, line), columns in zip(data, CARDS):
         fields |= deck.cut(line, list(columns), f"{file}:{number}")
@@ -127,7 +127,8 @@ def write(material: Material, units: UnitSystem, identifier: int, long: bool = F
     fields, off = deck.texts(material, units, FIELDS, WIDTH)
     fields["IDEL"] = "0"
     remarks = [*deck.remarks_of(material, units, deck.losses_of(material), off, WIDTH), SLOWER_DAMAGE]
-    lines = [*deck.comments(material, FIELDS, units, remarks, "#"), f"/UNIT/{identifier}", f"units of {material.name}"[:100],
+    lines = [*deck.comments(material, FIELDS, units, remarks, "#"),
+             f"/UNIT/{identifier}", f"units of {material.name}"[:100],
              "".join(radioss_name(name).rjust(WIDTH) for name in units.names),
              f"{KIND}/{identifier}/{identifier}", material.name[:100]]
     for columns in CARDS:

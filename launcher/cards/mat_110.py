@@ -45,7 +45,8 @@ def read(file: Path) -> list[DeckCard]:
         elif base.startswith("*MAT_"):
             others.append(f"{base} (line {place.rsplit(':', 1)[1]})")
     if not cards:
-        raise WrongInput(f"{file}: no {' or '.join(KEYWORDS)} in it" + (f"; it has {', '.join(others)}" if others else ""))
+        raise WrongInput(f"{file}: no {' or '.join(KEYWORDS)} in it" +
+                         (f"; it has {', '.join(others)}" if others else ""))
     return cards
 
 

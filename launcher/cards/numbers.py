@@ -41,14 +41,24 @@ def scientific(number: Decimal) -> str:
     return f"{'-' if sign else ''}{text[0]}.{text[1:] or '0'}e{exponent + len(digits) - 1}"
 
 
+def whole_mantissa(number: Decimal) -> str:
+    """9016.e1"""
+    sign, digits, exponent = number.as_tuple()
+    return f"{'-' if sign else ''}{''.join(map(str, digits))}.e{exponent}"
+
+
 def fit(value: Fraction, width: int) -> str:
-    """The decimal text nearest to the value among those that fit a field, with a point; plain where that is as near."""
+    """The decimal text nearest to the value among those that fit a field, with a point."""
     if value == 0:
         return "0.0"
     for digits in range(MOST_DIGITS, 0, -1):
         number = rounded(value, digits)
-        for text in (plain(number), scientific(number)):
-            if len(text) <= min(width, 16):
+        forms = [plain(number), scientific(number)]
+        if not -4 <= number.adjusted() < 12:
+            forms.reverse()
+        forms.append(whole_mantissa(number))  # 9016123.e4: a digit more than 9.01612e10
+        for text in forms:
+            if len(text) <= width:
                 return text
     raise ValueError(f"{float(value):g} does not fit {width} characters")
 

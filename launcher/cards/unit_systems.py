@@ -1,4 +1,4 @@
-"""Units of mass, length and time that a deck counts in, and units of quantities in a material card; all factors exact."""
+"""Units of mass, length and time that a deck counts in, and of quantities in a material card; all factors exact."""
 from __future__ import annotations
 
 import re

@@ -35,8 +35,8 @@ def import_card(arguments: argparse.Namespace) -> int:
     tell([f"not carried: {loss.place}: {loss.sentence}" for loss in card.losses] + remarks)
     put(card_file.write(material), output)
     if output:
-        print(f"{output}: in a scene ice.material = \"{material.name}\", with the card in a folder materials beside the "
-              "scene file or in the project's own")
+        print(f"{output}: ice.material = \"{material.name}\" in a scene, with the card in a folder materials beside it "
+              "or in the project's own")
     return DONE
 
 

@@ -27,7 +27,7 @@ class Words(unittest.TestCase):
             self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
 
     def test_help_is_there_for_every_command(self):
-        for command in ("run", "replay", "explain", "build", "test", "bench", "draw", "list", "conform", "validate"):
+        for command in ("run", "replay", "explain", "build", "test", "bench", "draw", "list", "conform", "validate", "card"):
             result = polynya(command, "--help")
             self.assertEqual((result.returncode, result.stderr), (0, ""))
 
