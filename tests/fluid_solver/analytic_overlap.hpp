@@ -113,6 +113,20 @@ inline Solid solid(const Revolution& body, int pieces = 8) {
           }};
 }
 
+/// A cylinder about the z axis, exact.
+inline Solid cylinder(double radius, double bottom, double top) {
+  return {[=](Vector a, Vector b) {
+            return common(a[2], b[2], bottom, top) * circle_rectangle(radius, a[0], b[0], a[1], b[1]);
+          },
+          [=](int normal, Vector a, Vector b) {
+            if (normal == 2)
+              return a[2] > bottom && a[2] < top ? circle_rectangle(radius, a[0], b[0], a[1], b[1]) : 0.0;
+            const int along = 1 - normal;
+            const double half = std::sqrt(std::max(0.0, radius * radius - a[normal] * a[normal]));
+            return common(a[along], b[along], -half, half) * common(a[2], b[2], bottom, top);
+          }};
+}
+
 /// The overlap of one body, given as vehicle (0) or ice (1), moving with one velocity.
 inline Overlap overlap_of(const Grid& grid, const Solid& body, Vector velocity, Vector low, Vector high,
                           int number = 0) {

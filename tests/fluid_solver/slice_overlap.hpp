@@ -147,4 +147,22 @@ inline std::vector<double> graded_line(double from, double low, double high, dou
   return line;
 }
 
+/// Lines of a grid about 0 whose cells grow with the distance from it, smallest + part * distance, until `near`, beyond by a
+/// tenth per cell: what spreads from 0 is resolved alike at all times.
+inline std::vector<double> spreading_line(double from, double to, double smallest, double part, double near) {
+  const auto one_way = [&](double end) {
+    std::vector<double> at{0};
+    for (double width = smallest; at.back() < end - 0.5 * width;) {
+      at.push_back(at.back() + width);
+      width = at.back() < near ? std::min(1.1 * width, smallest + part * at.back()) : 1.1 * width;
+    }
+    return at;
+  };
+  const std::vector<double> below = one_way(-from), above = one_way(to);
+  std::vector<double> line;
+  for (std::size_t n = below.size() - 1; n > 0; --n) line.push_back(-below[n]);
+  line.insert(line.end(), above.begin(), above.end());
+  return line;
+}
+
 }  // namespace polynya::fluid::test
