@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "core/continuum/bad_element.hpp"
 #include "core/continuum/hourglass.hpp"
 #include "core/continuum/newton_equilibrium.hpp"
 #include "core/continuum/rigid_modes.hpp"
@@ -63,7 +65,9 @@ double kinetic_energy(const ExplicitSolid& solid) {
 }
 
 std::runtime_error unbalanced(const ExplicitSolid& solid, double left, const std::string& after) {
-  return std::runtime_error("no equilibrium: " + std::to_string(left) + " of the largest nodal load on body '" +
+  char share[32];
+  std::snprintf(share, sizeof share, "%.2g", left);
+  return std::runtime_error("no equilibrium: " + std::string(share) + " of the largest nodal load on body '" +
                             solid.name + "' is not balanced after " + after);
 }
 
@@ -124,23 +128,37 @@ void take_over(ExplicitSolid&& from, ExplicitSolid& solid) {
   solid.points = std::move(from.points);
 }
 
+EquilibriumReport by_newton(ExplicitSolid& solid, std::span<const double> loads) {
+  NewtonResult found = newton_equilibrium(solid, loads, enough_for(solid, loads, newton_tolerance, 1));
+  take_over(std::move(found.solid), solid);
+  return {EquilibriumMethod::newton, found.iterations, found.factorisations, found.imbalance};
+}
+
+EquilibriumReport by_relaxation(ExplicitSolid& solid, std::span<const double> loads) {
+  EquilibriumReport report{EquilibriumMethod::relaxation, 0, 0, 0};
+  try {
+    take_over(relaxed(solid, loads, report), solid);
+  } catch (const BadElement& error) {
+    throw std::runtime_error(std::string("no equilibrium: ") + error.what());
+  }
+  return report;
+}
+
 }  // namespace
 
 EquilibriumReport bring_into_equilibrium(ExplicitSolid& solid, std::span<const double> loads,
                                          EquilibriumMethod method) {
   if (std::all_of(loads.begin(), loads.end(), [](double load) { return load == 0; })) return {};
   const std::vector<double> balanced = without_rigid_acceleration(solid, loads);
-  if (method == EquilibriumMethod::automatic && solid.node_count() > most_nodes_for_newton)
-    method = EquilibriumMethod::relaxation;
-  EquilibriumReport report{method, 0, 0, 0};
-  if (method == EquilibriumMethod::relaxation) {
-    take_over(relaxed(solid, balanced, report), solid);
-  } else {
-    NewtonResult found = newton_equilibrium(solid, balanced, enough_for(solid, balanced, newton_tolerance, 1));
-    report = {EquilibriumMethod::newton, found.iterations, found.factorisations, found.imbalance};
-    take_over(std::move(found.solid), solid);
+  if (method == EquilibriumMethod::newton) return by_newton(solid, balanced);
+  if (method == EquilibriumMethod::automatic && solid.node_count() <= most_nodes_for_newton) {
+    try {
+      return by_newton(solid, balanced);
+    } catch (const std::runtime_error&) {
+      // Parts that are each in balance alone, or strength that a Newton step jumps over: they may still come to rest.
+    }
   }
-  return report;
+  return by_relaxation(solid, balanced);
 }
 
 }  // namespace polynya::continuum

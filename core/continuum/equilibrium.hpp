@@ -6,7 +6,7 @@
 
 namespace polynya::continuum {
 
-/// automatic: Newton's method up to most_nodes_for_newton nodes, dynamic relaxation above.
+/// automatic: Newton's method up to most_nodes_for_newton nodes, dynamic relaxation above and where Newton finds none.
 enum class EquilibriumMethod { automatic, newton, relaxation };
 
 /// Where the factorised stiffness of a plate begins to cost more than relaxation (docs/theory.md).

@@ -10,6 +10,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <exception>
 #include <memory>
 #include <stdexcept>
@@ -232,6 +233,12 @@ int solve_by_newton(Balance& balance, double largest_load, double enough, Eigen:
   return code;
 }
 
+std::string in_two_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", value);
+  return text;
+}
+
 /// With the stiffness at hand, on to where rounding ends it: what is left would push a body that dashpots hold, however
 /// little it is, for as long as it stands. Returns the imbalance, N.
 double refine(Balance& balance, Eigen::VectorXd& displacement) {
@@ -258,7 +265,7 @@ NewtonResult newton_equilibrium(const ExplicitSolid& solid, std::span<const doub
   result.imbalance = refine(balance, displacement);
   // Where rounding ends the descent early, KINSOL calls it no descent: the forces decide.
   if (!(result.imbalance <= enough))
-    throw std::runtime_error("no equilibrium: " + std::to_string(result.imbalance / largest_load) +
+    throw std::runtime_error("no equilibrium: " + in_two_digits(result.imbalance / largest_load) +
                              " of the largest nodal load on body '" + solid.name + "' is not balanced after " +
                              std::to_string(result.iterations) + " corrections (KINSOL " + std::to_string(code) + ")");
   result.factorisations = balance.factorisations();

@@ -192,9 +192,9 @@ TEST(NewtonEquilibrium, RemovesWhatWouldMoveTheBodyAsAWholeAndNothingElse) {
 }
 
 TEST(NewtonEquilibrium, SaysSoWhereThereIsNone) {
-  const auto message = [](ExplicitSolid& solid, std::span<const double> loads) {
+  const auto message = [](ExplicitSolid solid, std::span<const double> loads, EquilibriumMethod method) {
     try {
-      bring_into_equilibrium(solid, loads);
+      bring_into_equilibrium(solid, loads, method);
     } catch (const std::runtime_error& error) {
       return std::string(error.what());
     }
@@ -204,7 +204,7 @@ TEST(NewtonEquilibrium, SaysSoWhereThereIsNone) {
   ExplicitSolid torn = standing_column({1, 1, 4}, brittle(), Integration::one_point, false);
   std::vector<double> loads(torn.positions.size(), 0.0);
   for (std::size_t n = torn.node_count() - 4; n < torn.node_count(); ++n) loads[3 * n + 2] = 5e7 * size * size / 4;
-  EXPECT_EQ(message(torn, loads).substr(0, 15), "no equilibrium:");
+  EXPECT_EQ(message(torn, loads, EquilibriumMethod::newton).substr(0, 15), "no equilibrium:");
   // Two cubes that hang together by an edge, as by a hinge, pushed so that it turns.
   HexMesh hinge = tests::block({2, 1, 2}, {2 * size, size, 2 * size});
   hinge.elements.erase(hinge.elements.begin() + 8, hinge.elements.begin() + 24);
@@ -212,7 +212,23 @@ TEST(NewtonEquilibrium, SaysSoWhereThereIsNone) {
   loads.assign(folding.positions.size(), 0.0);
   for (std::size_t n = 0; n < folding.node_count(); ++n)
     loads[3 * n] = folding.masses[n] * (folding.mesh.nodes[3 * n + 2] == size ? -1.0 : 1.0);
-  EXPECT_NE(message(folding, loads).find("can move without straining"), std::string::npos) << message(folding, loads);
+  const std::string loose = message(folding, loads, EquilibriumMethod::newton);
+  EXPECT_NE(loose.find("can move without straining"), std::string::npos) << loose;
+  EXPECT_EQ(message(folding, loads, EquilibriumMethod::automatic).substr(0, 15), "no equilibrium:");
+}
+
+TEST(NewtonEquilibrium, LeavesPartsThatAreInBalanceEachAloneToRelaxation) {
+  HexMesh two = tests::block({3, 1, 1}, {3 * size, size, size});
+  two.elements.erase(two.elements.begin() + 8, two.elements.begin() + 16);
+  ExplicitSolid solid = make_solid("two", two, elastic);
+  std::vector<double> loads(solid.positions.size(), 0.0);
+  for (std::size_t n = 0; n < solid.node_count(); ++n)
+    loads[3 * n + 2] = solid.masses[n] * (solid.mesh.nodes[3 * n + 2] == 0 ? 10.0 : -10.0);
+  const std::vector<double> start = solid.positions;
+  EXPECT_THROW(bring_into_equilibrium(solid, loads, EquilibriumMethod::newton), std::runtime_error);
+  EXPECT_EQ(bring_into_equilibrium(solid, loads).method, EquilibriumMethod::relaxation);
+  EXPECT_EQ(solid.positions, start);
+  EXPECT_LT(solid.element.stress[2][0], 0);
 }
 
 }  // namespace
