@@ -132,9 +132,7 @@ int residual(N_Vector displacement, N_Vector force, void* data) {
   try {
     values_of(force) = balance.unbalanced(values_of(displacement));
     return 0;
-  } catch (const BadElement&) {
-    return 1;
-  } catch (const std::invalid_argument&) {
+  } catch (const std::runtime_error&) {
     return 1;
   } catch (...) {
     balance.failure = std::current_exception();
@@ -262,7 +260,11 @@ NewtonResult newton_equilibrium(const ExplicitSolid& solid, std::span<const doub
   NewtonResult result;
   const int code = solve_by_newton(balance, largest_load, enough, displacement, result.iterations);
   if (balance.failure) std::rethrow_exception(balance.failure);
-  result.imbalance = refine(balance, displacement);
+  try {
+    result.imbalance = refine(balance, displacement);
+  } catch (const BadElement& error) {
+    throw std::runtime_error(std::string("no equilibrium: ") + error.what());
+  }
   // Where rounding ends the descent early, KINSOL calls it no descent: the forces decide.
   if (!(result.imbalance <= enough))
     throw std::runtime_error("no equilibrium: " + in_two_digits(result.imbalance / largest_load) +

@@ -1,6 +1,8 @@
 #include "core/continuum/static_step.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 namespace polynya::continuum {
 
@@ -17,7 +19,11 @@ Numerics without_viscosities(Numerics numerics) {
 
 void step_from_reference(ExplicitSolid& solid, const RememberedState& start, std::span<const double> present,
                          std::span<const double> displacement) {
-  lay_down_unloaded(solid);
+  try {
+    lay_down_unloaded(solid);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(std::string("no equilibrium: the shape without stress folds: ") + error.what());
+  }
   solid.element.stress = start.stress;
   solid.element.damage = start.damage;
   solid.element.plastic_strain = start.plastic_strain;

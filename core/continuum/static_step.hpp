@@ -20,7 +20,8 @@ Numerics without_viscosities(Numerics numerics);
 
 /// From the reference shape (mesh.nodes, where `solid` is laid down first) to `present` in one step, at rest at its
 /// end; internal_force is that of the elements there. displacement: present - mesh.nodes before the nodes were rounded,
-/// which would be felt where strains are small (all [n][3], m). Throws like lay_down_unloaded and internal_forces.
+/// which would be felt where strains are small (all [n][3], m). Throws std::runtime_error where that shape folds,
+/// BadElement where the present one does.
 void step_from_reference(ExplicitSolid& solid, const RememberedState& start, std::span<const double> present,
                          std::span<const double> displacement);
 

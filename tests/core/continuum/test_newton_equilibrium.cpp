@@ -205,6 +205,11 @@ TEST(NewtonEquilibrium, SaysSoWhereThereIsNone) {
   std::vector<double> loads(torn.positions.size(), 0.0);
   for (std::size_t n = torn.node_count() - 4; n < torn.node_count(); ++n) loads[3 * n + 2] = 5e7 * size * size / 4;
   EXPECT_EQ(message(torn, loads, EquilibriumMethod::newton).substr(0, 15), "no equilibrium:");
+  // One pressed by a thousand times its stiffness.
+  ExplicitSolid crushed = standing_column({1, 1, 4}, elastic, Integration::one_point, false);
+  for (double& load : loads) load *= -1e6;
+  for (const EquilibriumMethod method : {EquilibriumMethod::newton, EquilibriumMethod::automatic})
+    EXPECT_EQ(message(crushed, loads, method).substr(0, 15), "no equilibrium:");
   // Two cubes that hang together by an edge, as by a hinge, pushed so that it turns.
   HexMesh hinge = tests::block({2, 1, 2}, {2 * size, size, 2 * size});
   hinge.elements.erase(hinge.elements.begin() + 8, hinge.elements.begin() + 24);
