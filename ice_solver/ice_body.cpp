@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/compute/parallel.hpp"
-#include "core/continuum/equilibrium.hpp"
 #include "ice_solver/ball.hpp"
 
 namespace polynya::ice {
@@ -88,11 +87,11 @@ IceBody make_ice(const IceOptions& options) {
   return ice;
 }
 
-void settle(IceBody& ice, std::span<const double> node_loads) {
+continuum::EquilibriumReport settle(IceBody& ice, std::span<const double> node_loads) {
   std::vector<double> loads(node_loads.begin(), node_loads.end());
   for (std::size_t n = 0; n < ice.solid.node_count(); ++n)
     loads[3 * n + 2] -= ice.options.gravity * ice.solid.masses[n];
-  continuum::bring_into_equilibrium(ice.solid, loads);
+  return continuum::bring_into_equilibrium(ice.solid, loads, ice.options.equilibrium);
 }
 
 void advance_positions(IceBody& ice, double dt) {

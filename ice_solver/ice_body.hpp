@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/compute/timer.hpp"
+#include "core/continuum/equilibrium.hpp"
 #include "core/continuum/explicit_solid.hpp"
 #include "ice_solver/background.hpp"
 #include "ice_solver/neighbour_list.hpp"
@@ -48,7 +49,8 @@ struct IceOptions {
   double collapsed_step =
       0.1;             ///< an element is also converted when its stable step falls below this part of its first
   double gravity = 0;  ///< m/s^2, along -z
-  double sleeping_threshold = 0;  ///< continuum::Sleeping
+  continuum::EquilibriumMethod equilibrium = continuum::EquilibriumMethod::automatic;  ///< of settle
+  double sleeping_threshold = 0;                                                       ///< continuum::Sleeping
   /// Particles meet intact ice that they are not bonded to by contact, not through the sums; surfaces meet by contact.
   bool own_contact = false;
   double contact_friction = 0, contact_stiffness_factor = 0.1;
@@ -119,7 +121,7 @@ IceBody make_ice(const IceOptions& options);
 /// Gives the plate the stress that balances loads on its nodes ([n][3], N) and its weight, but for the rigid
 /// acceleration they cause; its present shape is the loaded one. Before the first step. Throws std::runtime_error
 /// where forces do not come to balance.
-void settle(IceBody& ice, std::span<const double> node_loads);
+continuum::EquilibriumReport settle(IceBody& ice, std::span<const double> node_loads);
 
 void advance_positions(IceBody& ice, double dt);
 void internal_forces(IceBody& ice, double dt);

@@ -154,7 +154,10 @@ void begin(Course& course, exchange::Participant& participant) {
   }
   if (course.run.scene.ice->start == "equilibrium" && !node_loads.empty()) {
     const auto lap = ice.watch.lap("equilibrium");
-    settle(ice, node_loads);
+    const auto report = settle(ice, node_loads);
+    spdlog::info("starts in equilibrium, to {:.1e} N at a node: {} {}", report.imbalance, report.iterations,
+                 report.method == continuum::EquilibriumMethod::newton ? "corrections of Newton's method"
+                                                                       : "steps of relaxation");
   }
   internal_forces(ice, 0);
   advance_velocities(ice, node_loads, particle_loads, 0, course.dt);

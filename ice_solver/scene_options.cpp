@@ -24,6 +24,13 @@ continuum::Integration integration_from_name(const std::string& name) {
   throw std::invalid_argument("ice.integration is \"" + name + "\"; it must be one_point or full");
 }
 
+continuum::EquilibriumMethod equilibrium_from_name(const std::string& name) {
+  if (name == "auto") return continuum::EquilibriumMethod::automatic;
+  if (name == "newton") return continuum::EquilibriumMethod::newton;
+  if (name == "relaxation") return continuum::EquilibriumMethod::relaxation;
+  throw std::invalid_argument("ice.equilibrium is \"" + name + "\"; it must be auto, newton or relaxation");
+}
+
 /// Of the elements about the axis, m: cracks run between elements along any axis, so the cube root of the volume.
 double element_size(const scene::GridLines& lines) {
   const auto at_axis = [](const std::vector<double>& line) {
@@ -62,6 +69,7 @@ IceOptions options_from_scene(const scene::Scene& scene) {
     options.ball = {0.5 * ice.ball->diameter, scene.resolution.ice_element, ice.lower_face, ice.ball->speed};
   }
   options.numerics.integration = integration_from_name(ice.integration);
+  options.equilibrium = equilibrium_from_name(ice.equilibrium);
   options.debris = debris_from_name(ice.particles);
   options.conversion = scene.effect("conversion");
   options.critical_strain = ice.critical_strain;

@@ -144,6 +144,10 @@ struct ExplicitSolid {
 /// not positive.
 ExplicitSolid make_solid(std::string name, HexMesh mesh, Law law, Numerics numerics = {});
 
+/// Takes mesh.nodes for the shape without stress (reference volumes, hourglass shapes) and lays the body down in it, at
+/// rest; masses stay. Throws std::invalid_argument like make_solid.
+void lay_down_unloaded(ExplicitSolid& solid);
+
 /// x += dt v, time += dt.
 void advance_positions(ExplicitSolid& solid, double dt);
 
@@ -182,7 +186,9 @@ void add_non_reflecting_boundary(ExplicitSolid& solid, std::span<const std::int3
 /// Damps all nodes by a force `rate` (1/s) x mass x velocity against it. Its work is booked with what leaves through
 /// non-reflecting boundaries. Fix components first.
 void add_mass_damping(ExplicitSolid& solid, double rate);
-/// Makes the damped boundary carry what is needed for equilibrium under the present internal and external forces.
+/// Makes the damped boundary carry what is needed for equilibrium under the present internal and external forces: at
+/// each of its nodes, and along axes that no support holds for the body as a whole. Dashpots alone hold nothing: a
+/// force F that they do not carry at rest makes the body creep at F / (rho c A).
 void hold_boundary_at_rest(ExplicitSolid& solid, std::span<const double> external_force);
 
 // One element, for conversion, output and tests.

@@ -20,9 +20,12 @@
 ///
 /// Viscosity: on the rate R_m = c_m' - L c_m. The magnitudes of both are capped by the force at which bending would
 /// bring the outer fibre to the flow stress Y, Y A / 12 with A the face area: what a crushed element cannot carry, its
-/// hourglass modes do not carry either. Laws that ask for it see what the modes hold as a Spread about the mean. Ductile
-/// ones do not and flow without end: a part of the viscosity is left to their modes, else their elements fold.
+/// hourglass modes do not carry either. Laws that ask for it see what the modes hold as a Spread about the mean.
+/// Ductile ones do not and flow without end: a part of the viscosity is left to their modes, else their elements fold.
 namespace polynya::continuum {
+
+/// Smaller natural coordinates of the reference shape are taken for round-off of a parallelepiped.
+inline constexpr double least_natural_hourglass = 1e-13;
 
 /// One vector for every mode 4..7.
 template <class T>

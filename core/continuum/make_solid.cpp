@@ -83,7 +83,7 @@ void shape_hourglass(ExplicitSolid& solid, std::size_t e, const Modes<double>& c
                                         dot(c[m + 4], cross(c[3], c[1])) / triple,
                                         dot(c[m + 4], cross(c[1], c[2])) / triple};
     for (std::size_t j = 0; j < 3; ++j) {
-      if (std::abs(natural[j]) < 1e-13) continue;  // round-off of a parallelepiped
+      if (std::abs(natural[j]) < least_natural_hourglass) continue;
       solid.natural_hourglass[(e / w * 12 + 3 * m + j) * w + e % w] = natural[j];
       solid.irregular[e / w] = 1;
     }
@@ -91,6 +91,8 @@ void shape_hourglass(ExplicitSolid& solid, std::size_t e, const Modes<double>& c
 }
 
 void set_elements(ExplicitSolid& solid) {
+  std::fill(solid.natural_hourglass.begin(), solid.natural_hourglass.end(), 0.0);
+  std::fill(solid.irregular.begin(), solid.irregular.end(), std::uint8_t{0});
   const Elastic elastic = elastic_part(solid.law);
   const double young =
       9 * elastic.bulk_modulus * elastic.shear_modulus / (3 * elastic.bulk_modulus + elastic.shear_modulus);
@@ -106,11 +108,22 @@ void set_elements(ExplicitSolid& solid) {
     }
     solid.element.reference_volume[e] = g.volume;
     shape_hourglass(solid, e, c, g.volume, young);
-    update_exposure(solid, e);
   }
 }
 
 }  // namespace
+
+void lay_down_unloaded(ExplicitSolid& solid) {
+  std::copy(solid.mesh.nodes.begin(), solid.mesh.nodes.end(), solid.positions.begin());
+  std::fill(solid.velocities.begin(), solid.velocities.end(), 0.0);
+  set_elements(solid);
+  // The reference volume by the very instructions that will compute the current one: at rest mu is exactly 0.
+  internal_forces(solid, 0.0);
+  std::copy_n(solid.element.volume.begin(), solid.element_count(), solid.element.reference_volume.begin());
+  for (auto& component : solid.element.stress) std::fill(component.begin(), component.end(), 0.0);
+  for (PointArrays& point : solid.points)
+    for (auto& component : point.stress) std::fill(component.begin(), component.end(), 0.0);
+}
 
 ExplicitSolid make_solid(std::string name, HexMesh mesh, Law law, Numerics numerics) {
   check_mesh(name, mesh);
@@ -121,13 +134,8 @@ ExplicitSolid make_solid(std::string name, HexMesh mesh, Law law, Numerics numer
   solid.numerics = numerics;
   size_arrays(solid);
   number_connections(solid);
-  set_elements(solid);
-  // The reference volume by the very instructions that will compute the current one: at rest mu is exactly 0.
-  internal_forces(solid, 0.0);
-  std::copy_n(solid.element.volume.begin(), solid.element_count(), solid.element.reference_volume.begin());
-  for (auto& component : solid.element.stress) std::fill(component.begin(), component.end(), 0.0);
-  for (PointArrays& point : solid.points)
-    for (auto& component : point.stress) std::fill(component.begin(), component.end(), 0.0);
+  for (std::size_t e = 0; e < solid.element_count(); ++e) update_exposure(solid, e);
+  lay_down_unloaded(solid);
   std::fill(solid.element.reference_volume.begin() + static_cast<std::ptrdiff_t>(solid.element_count()),
             solid.element.reference_volume.end(), solid.element.reference_volume[0]);
   for (std::size_t e = 0; e < solid.element_count(); ++e) {

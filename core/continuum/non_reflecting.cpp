@@ -115,12 +115,33 @@ void add_non_reflecting_boundary(ExplicitSolid& solid, std::span<const std::int3
   }
 }
 
+namespace {
+
+/// What still pushes the body as a whole along an axis that no support holds goes to the boundary, by its damping.
+void carry_rest(ExplicitSolid& solid, std::span<const double> external_force, std::size_t axis) {
+  double rest = 0, damping = 0;
+  for (std::size_t n = 0; n < solid.node_count(); ++n) {
+    if (solid.fixed[n] >> axis & 1) return;
+    rest += solid.internal_force[3 * n + axis] + external_force[3 * n + axis];
+  }
+  for (std::size_t k = 0; k < solid.damped.nodes.size(); ++k) {
+    rest += solid.damped.static_force[3 * k + axis];
+    damping += solid.damped.damping[6 * k + axis];
+  }
+  if (!(damping > 0)) return;
+  for (std::size_t k = 0; k < solid.damped.nodes.size(); ++k)
+    solid.damped.static_force[3 * k + axis] -= rest * solid.damped.damping[6 * k + axis] / damping;
+}
+
+}  // namespace
+
 void hold_boundary_at_rest(ExplicitSolid& solid, std::span<const double> external_force) {
   for (std::size_t k = 0; k < solid.damped.nodes.size(); ++k) {
     const auto n = static_cast<std::size_t>(solid.damped.nodes[k]);
     for (std::size_t i = 0; i < 3; ++i)
       solid.damped.static_force[3 * k + i] = -(solid.internal_force[3 * n + i] + external_force[3 * n + i]);
   }
+  for (std::size_t axis = 0; axis < 3; ++axis) carry_rest(solid, external_force, axis);
 }
 
 void add_boundary_traction(ExplicitSolid& solid, std::span<const double> external_force, double dt_previous,

@@ -150,6 +150,8 @@ void choose_ice_start(const Values& values, Scene& scene) {
     values.fail("ice.start", "the vehicle's flow presses on the ice from the start; must be auto or unloaded");
   const bool floats = (ice.sides == "free" || ice.sides == "non_reflecting") && ice.held_rim == 0;
   if (values.text("ice.start") == "auto" && at_rest && floats) ice.start = "equilibrium";
+  if (ice.start != "equilibrium" && ice.equilibrium != "auto")
+    values.fail("ice.equilibrium", "this ice starts unloaded; must be auto, or ice.start equilibrium");
 }
 
 void read_fluid(const Values& values, Scene& scene) {

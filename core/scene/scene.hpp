@@ -117,6 +117,7 @@ struct Ice {
   double damping = 0;             ///< 1/s, force over mass and velocity; 0: none
   double held_rim = 0;            ///< m, width of a rim of the upper face whose nodes are held; 0: none
   std::string start;              ///< "equilibrium" with the loads it starts under, or "unloaded"
+  std::string equilibrium;        ///< how it is found: "auto", "newton" or "relaxation"
   std::string particles;          ///< what a converted element becomes: "element_centre", "free_masses" or "none"
   std::string integration;        ///< points per element: "one_point" or "full" (2 x 2 x 2)
   double sleeping_threshold = 0;  ///< relative disturbance below which elements sleep; 0: none does

@@ -76,7 +76,8 @@ void members(Part& p, Visit&& visit) {
   visit("lower_face", p.lower_face), visit("material", p.material), visit("critical_strain", p.critical_strain);
   visit("sides", p.sides), visit("damping", p.damping), visit("held_rim", p.held_rim);
   visit("sleeping_threshold", p.sleeping_threshold);
-  visit("start", p.start), visit("particles", p.particles), visit("integration", p.integration);
+  visit("start", p.start), visit("equilibrium", p.equilibrium), visit("particles", p.particles),
+      visit("integration", p.integration);
   visit("bending", p.bending), visit("ball", p.ball), visit("mesh", p.mesh);
 }
 

@@ -148,6 +148,10 @@ std::vector<KeyRule> solid_rules() {
           "ice.start", {"auto", "equilibrium", "unloaded"}, "auto",
           "stress at the start: in equilibrium with water and weight, or none; auto: equilibrium for ice that floats "
           "on water at rest"),
+      choice(
+          "ice.equilibrium", {"auto", "newton", "relaxation"}, "auto",
+          "how that start is found: Newton's method, to rounding; dynamic relaxation, to 1e-6 of the largest load on "
+          "a node; auto: Newton's up to 3,000 nodes, relaxation above and where Newton's finds none"),
       choice("ice.particles", {"element_centre", "free_masses", "none"}, "element_centre",
              "what a failed element becomes: an SPH particle at its centre; a mass there that meets the vehicle only; "
              "nothing, its mass and motion leave"),

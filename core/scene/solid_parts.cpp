@@ -133,9 +133,12 @@ Ice read_ice(const Values& values, const std::string& mesh) {
   ice.sides = values.text("ice.sides");
   if (ice.sides == "auto") ice.sides = ice.bending || ice.ball || ice.mesh ? "free" : "non_reflecting";
   ice.start = values.text("ice.start");
+  ice.equilibrium = values.text("ice.equilibrium");
   if (ice.start == "equilibrium" && (!values.has("water") || ice.ball || ice.bending))
     values.fail("ice.start", "ice that meets no water starts without loads; must be auto or unloaded");
   if (ice.start == "auto") ice.start = "unloaded";
+  if (ice.start == "unloaded" && ice.equilibrium != "auto" && !values.has("water"))
+    values.fail("ice.equilibrium", "ice that meets no water starts without loads; must be auto");
   ice.damping = values.number("ice.damping");
   if (ice.damping > 0 && (values.has("vehicle") || ice.ball || ice.bending))
     values.fail("ice.damping",

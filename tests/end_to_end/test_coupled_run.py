@@ -105,6 +105,8 @@ class BaseScene(unittest.TestCase):
                     "shoulder_clear_time broken_ice_mass energy_error momentum_error mass_error leak_fraction "
                     "converted_elements particles cells elements steps wall_time processes effects").split():
             self.assertIn(key, self.summary)
+        # What keeps a value within bounds is counted where scripts find it.
+        self.assertIn("density_bounded", self.summary["participants"]["ice"])
 
 
 stagnation_pressure = 0.5 * 1000 * 40**2  # Pa

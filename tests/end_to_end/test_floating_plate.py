@@ -34,8 +34,13 @@ class FloatingPlate(unittest.TestCase):
             return displacements(run), forces
 
     def test_stays_where_it_is_without_a_lateral_force(self):
-        moved, (x, y, z) = self.float_for()
-        print(f"after 0.5 ms: drift {np.abs(moved).max():.1e} m, lateral force {max(abs(x), abs(y)) / WEIGHT:.1e} of the weight, "
+        for method in ("newton", "relaxation"):
+            with self.subTest(method):
+                self.stay_at_rest("--set", f"ice.equilibrium={method}")
+
+    def stay_at_rest(self, *settings):
+        moved, (x, y, z) = self.float_for(*settings)
+        print(f"{settings[-1]}, after 0.5 ms: drift {np.abs(moved).max():.1e} m, lateral force {max(abs(x), abs(y)) / WEIGHT:.1e} of the weight, "
               f"vertical {z / WEIGHT:.5f}")
         self.assertLess(np.abs(moved).max(), 1e-10)
         self.assertLess(max(abs(x), abs(y)), 1e-9 * WEIGHT)

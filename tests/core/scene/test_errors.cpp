@@ -73,6 +73,8 @@ TEST(SceneErrors, ImpossibleValuesSayWhatIsAllowed) {
       {{"fluid.length=100 mm"}, {"must not be below that of the ice"}},
       {{"water.depth=0"}, {"0 makes the ice the floor of the water", "clamped"}},
       {{"ice.damping=100"}, {"comes to rest", "beside [vehicle]"}},
+      {{"ice.equilibrium=newtn"}, {"one of auto, newton, relaxation", "did you mean newton?"}},
+      {{"ice.equilibrium=newton"}, {"this ice starts unloaded", "must be auto, or ice.start equilibrium"}},
       {{"ice.integration=ful"}, {"one of one_point, full", "did you mean full?"}},
       {{"ice.sides=clamped_end"}, {"did you mean clamped_ends?"}},
       {{"vehicle=3"}, {"must be a table, [vehicle]"}},
@@ -93,6 +95,8 @@ TEST(SceneErrors, PartsThatCannotStandTogetherAreNamed) {
                  {"dam.height", "must be below dam.tank_height"});
   expect_message(message_of(case_folder("four_point_bending"), {.level = {}, .settings = {"ice.sides=clamped_ends"}}),
                  {"a beam between rollers is free"});
+  expect_message(message_of(case_folder("four_point_bending"), {.level = {}, .settings = {"ice.equilibrium=newton"}}),
+                 {"ice.equilibrium", "ice that meets no water starts without loads"});
   expect_message(message_of(case_folder("plate_under_water"), {.level = {}, .settings = {"ice.sides=free"}}),
                  {"water.depth", "clamped sides or ends"});
   expect_message(message_of(scene_file("")), {"an empty scene"});
