@@ -63,8 +63,8 @@ IceBody make_ice(const IceOptions& options) {
   release_waves(ice.solid, options.supports);
   if (options.damping > 0) continuum::add_mass_damping(ice.solid, options.damping);
   if (options.held_rim > 0) hold_rim(ice.solid, options.planes, options.held_rim);
-  if (options.ball)
-    for (std::size_t n = 0; n < ice.solid.node_count(); ++n) ice.solid.velocities[3 * n + 2] = -options.ball->speed;
+  const double velocity = options.ball ? -options.ball->speed : options.velocity;
+  for (std::size_t n = 0; n < ice.solid.node_count(); ++n) ice.solid.velocities[3 * n + 2] = velocity;
   ice.face_neighbours = continuum::face_neighbours(ice.solid.mesh);
   if (options.own_contact) {
     // The size of the smallest elements sets how far candidates are looked for.

@@ -43,6 +43,7 @@ struct IceOptions {
   std::optional<BallOptions> ball;         ///< then the grid lines mean nothing
   std::optional<continuum::HexMesh> mesh;  ///< likewise; it lies where its nodes say, on planes of symmetry exactly
   std::vector<Support> supports;           ///< of nodes of that mesh
+  double velocity = 0;                     ///< m/s, of that mesh at the start, along z; held components keep it
   bool conversion = true;
   Debris debris = Debris::particles;
   double critical_strain = 0.35;

@@ -16,6 +16,7 @@ results::MeshFile use_imported_mesh(IceOptions& options, const scene::IceMesh& m
       for (const char axis : held) support.components |= static_cast<std::uint8_t>(1 << (axis - 'x'));
     options.supports.push_back(std::move(support));
   }
+  options.velocity = mesh.velocity;
   options.mesh = continuum::HexMesh{found.nodes, found.elements};
   return found;
 }

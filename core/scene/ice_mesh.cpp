@@ -53,7 +53,7 @@ WantedMesh read_wanted_mesh(const Values& values) {
 
 void read_ice_mesh(const Values& values, const std::string& facts, Ice& ice) {
   if (!values.is_given("ice.mesh")) {
-    for (const std::string key : {"ice.mesh_unit", "ice.mesh_pieces"})
+    for (const std::string key : {"ice.mesh_unit", "ice.mesh_pieces", "ice.velocity"})
       if (values.is_given(key)) values.fail(key, "belongs to ice.mesh; give that as well or leave this out");
     for (const auto& name : values.keys_below("ice.supports"))
       values.fail("ice.supports." + name, "names a set of ice.mesh; give that as well or leave this out");
@@ -67,6 +67,7 @@ void read_ice_mesh(const Values& values, const std::string& facts, Ice& ice) {
     values.fail("ice.mesh", "the file is read by ./polynya; resolve_scene alone needs --mesh with its facts");
   IceMesh& mesh = ice.mesh.emplace();
   mesh.file = wanted.file, mesh.unit = wanted.unit, mesh.pieces = wanted.pieces;
+  mesh.velocity = values.number("ice.velocity");
   for (const auto& name : wanted.sets) mesh.supports[name] = support_of(values, name);
   try {
     take_facts(nlohmann::json::parse(facts), mesh, ice);

@@ -105,6 +105,7 @@ struct IceMesh {
   long elements = 0, nodes = 0, boundary_faces = 0;
   double volume = 0;                            ///< m^3, of the modelled part
   double thinnest = 0;                          ///< m, smallest volume over largest face of an element
+  double velocity = 0;                          ///< m/s, of all of it at the start, along z; held components keep it
   std::map<std::string, std::string> supports;  ///< by the name of a set: "x", "xyz", ... or "non_reflecting"
 };
 

@@ -131,6 +131,8 @@ std::vector<KeyRule> solid_rules() {
       choice("ice.mesh_unit", {"none", "m", "cm", "mm", "um", "in", "ft"}, "none",
              "unit of its coordinates; must be given with mesh"),
       integer("ice.mesh_pieces", "1", "parts without a common face that the mesh may fall into", 1),
+      number("ice.velocity", dim::speed, "0",
+             "of a mesh at the start, along z; components that a support holds keep it: supports move", -1000, 1000),
       text("ice.supports.NAME", "none",
            "what holds the nodes of NAME, a set of nodes or elements or a physical group of the mesh: components "
            "such as \"z\" or \"xyz\"; or \"non_reflecting\": waves leave through its faces"),
