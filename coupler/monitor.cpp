@@ -56,6 +56,8 @@ Monitor::Monitor(const scene::Scene& scene, const std::string& run_folder, const
     const double u = vehicle->account["momentum_x"] / mass_, v = vehicle->account["momentum_y"] / mass_;
     initial_kinetic_ = 0.5 * mass_ * (speed_ * speed_ + u * u + v * v);
     initial_momentum_ = vehicle->account["momentum_z"];
+  } else if (const SolidSide* ice = conversation.find(Body::ice)) {
+    initial_momentum_ = ice->account["momentum_z"];
   }
 }
 
@@ -66,6 +68,15 @@ void Monitor::read_vehicle(const Conversation& conversation) {
   if (mass_ > 0) speed_ = vehicle->account["momentum_z"] / mass_;
   nose_ = -1e300;
   for (std::size_t v = 0; v < vehicle->vertices(); ++v) nose_ = std::max(nose_, vehicle->positions[3 * v + 2]);
+}
+
+double Monitor::energy_error(double defect) const {
+  const double reference = mass_ > 0 ? initial_kinetic_ : largest_exchange_;
+  return reference > 0 ? defect / reference : 0;
+}
+
+double Monitor::momentum_error(const Balance& sum) const {
+  return initial_momentum_ != 0 ? std::abs(sum.momentum / initial_momentum_) : 0;
 }
 
 void Monitor::note_contact(const contact::ContactForces& forces) {
@@ -98,7 +109,7 @@ Balance balance(const Conversation& conversation, const Ledger& ledger, double a
   for (const SolidSide& side : conversation.solids) {
     double& stored = side.body == Body::vehicle ? sum.vehicle : sum.ice;
     stored = side.account.change({"kinetic", "internal", "hourglass", "viscous", "conversion_heat"});
-    sum.external += side.account.change("gravity_work") - side.account.change("boundary_flux");
+    sum.external += side.account.change({"gravity_work", "support_work"}) - side.account.change("boundary_flux");
     sum.numerical += side.account.change("step_change");
     sum.momentum += side.account.change("momentum_z") - side.account.change("boundary_impulse_z") -
                     side.account.change("gravity_impulse_z") + outstanding(side)[2] -
@@ -116,6 +127,8 @@ Balance balance(const Conversation& conversation, const Ledger& ledger, double a
     sum.numerical -= fluid.change("swept_defect");
     sum.momentum += fluid.change({"momentum_z", "boundary_impulse_z", "gravity_impulse", "rest_impulse_z"});
   }
+  for (const double part : {sum.vehicle, sum.ice, sum.fluid, sum.external})
+    sum.exchanged = std::max(sum.exchanged, std::abs(part));
   sum.contact = ledger.contact_stored + ledger.contact_friction + ledger.contact_damping + ledger.contact_released;
   return sum;
 }
@@ -130,10 +143,10 @@ void Monitor::append_row(const TimeKeeper& keeper, const Conversation& conversat
   const Account& i = ice ? ice->account : nothing;
 
   const Balance sum = balance(conversation, ledger, atmospheric_pressure_);
-  const double energy_error = initial_kinetic_ > 0 ? std::abs(sum.energy_defect()) / initial_kinetic_ : 0;
-  const double momentum_error = initial_momentum_ != 0 ? std::abs(sum.momentum / initial_momentum_) : 0;
-  largest_energy_error_ = std::max(largest_energy_error_, energy_error);
-  largest_momentum_error_ = std::max(largest_momentum_error_, momentum_error);
+  largest_exchange_ = std::max(largest_exchange_, sum.exchanged);
+  const double defect = std::abs(sum.energy_defect());
+  largest_defect_ = std::max(largest_defect_, defect);
+  largest_momentum_error_ = std::max(largest_momentum_error_, momentum_error(sum));
   peak_head_stress_ = std::max(peak_head_stress_, v["head_stress"]);
 
   constexpr int body = static_cast<int>(Body::vehicle);
@@ -150,8 +163,8 @@ void Monitor::append_row(const TimeKeeper& keeper, const Conversation& conversat
                         speed_,
                         scale_ * v["momentum_z"],
                         v["centre_of_mass_z"],
-                        energy_error,
-                        momentum_error,
+                        energy_error(defect),
+                        momentum_error(sum),
                         scale_ * contact_force,
                         scale_ * fluid_force,
                         v["head_stress"],
@@ -194,9 +207,9 @@ nlohmann::json Monitor::summary(const TimeKeeper& keeper, const Conversation& co
     summary["converted_elements"] = ice->account["converted_elements"];
     summary["particles"] = ice->account["particles"];
   }
-  summary["energy_error"] = initial_kinetic_ > 0 ? std::abs(sum.energy_defect()) / initial_kinetic_ : 0;
-  summary["momentum_error"] = initial_momentum_ != 0 ? std::abs(sum.momentum / initial_momentum_) : 0;
-  summary["largest_energy_error"] = largest_energy_error_;
+  summary["energy_error"] = energy_error(std::abs(sum.energy_defect()));
+  summary["momentum_error"] = momentum_error(sum);
+  summary["largest_energy_error"] = energy_error(largest_defect_);
   summary["largest_momentum_error"] = largest_momentum_error_;
   summary["peak_wall_pressure"] = peak_wall_pressure_;
   summary["deepest_contact"] = deepest_contact_;

@@ -18,6 +18,7 @@ struct Balance {
   double external = 0;                     ///< J, put in from outside: gravity, boundaries
   double numerical = 0;  ///< J, part of the energy defect that the scheme can name (swept volume, change of step)
   double momentum = 0;   ///< kg m/s, change of vertical momentum less outside impulses
+  double exchanged = 0;  ///< J, the largest of these changes
   /// What does not close. Booked defects count as error: no physical reservoir took that energy.
   double energy_defect() const { return vehicle + ice + fluid + contact - external; }
 };
@@ -42,20 +43,27 @@ class Monitor {
   nlohmann::json summary(const TimeKeeper& keeper, const Conversation& conversation, const Ledger& ledger) const;
 
   POLYNYA_STATE_WITHOUT((scene_), scene_, series_, scale_, atmospheric_pressure_, initial_kinetic_, initial_momentum_,
-                        initial_speed_, nose_, speed_, mass_, largest_energy_error_, largest_momentum_error_,
+                        largest_exchange_, initial_speed_, nose_, speed_, mass_, largest_defect_, largest_momentum_error_,
                         peak_head_stress_, peak_wall_pressure_, wall_pressure_, head_pressure_, deepest_contact_,
                         contact_before_, fluid_before_, time_before_)
 
  private:
   void read_vehicle(const Conversation& conversation);
+  /// Over the vehicle's initial kinetic energy; without a vehicle over the largest change of any part's energy so far.
+  double energy_error(double defect) const;
+  double momentum_error(const Balance& sum) const;
 
   const scene::Scene& scene_;
   results::TimeSeries series_;
   double scale_ = 1;  ///< full model over modelled part
   double atmospheric_pressure_ = 0;
-  double initial_kinetic_ = 0, initial_momentum_ = 0, initial_speed_ = 0;
+  double initial_kinetic_ = 0;   ///< of the vehicle
+  double initial_momentum_ = 0;  ///< of the vehicle; without one that of the ice
+  double largest_exchange_ = 0;  ///< J, so far
+  double initial_speed_ = 0;
   double nose_ = 0, speed_ = 0, mass_ = 0;
-  double largest_energy_error_ = 0, largest_momentum_error_ = 0;
+  double largest_defect_ = 0;  ///< J
+  double largest_momentum_error_ = 0;
   double peak_head_stress_ = 0, peak_wall_pressure_ = 0, wall_pressure_ = 0, head_pressure_ = 0, deepest_contact_ = 0;
   Impulse contact_before_{}, fluid_before_{};
   double time_before_ = 0;

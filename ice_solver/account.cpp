@@ -24,6 +24,7 @@ Account account_of(const IceBody& ice) {
   account.gravity_work = books.node_gravity_work.total + books.particle_gravity_work.total;
   account.external_work = elements.external_work - books.node_pair_work.total - books.node_gravity_work.total +
                           books.particle_load_work.total + books.prescribed_work;
+  account.support_work = elements.support_work;
   account.step_change = elements.step_change + books.particle_step_change.total;
   account.momentum = books.momentum;
   account.boundary_impulse = books.boundary_impulse;
@@ -43,6 +44,7 @@ const std::vector<std::string>& account_names() {
                                               "conversion_heat",
                                               "boundary_flux",
                                               "external_work",
+                                              "support_work",
                                               "gravity_work",
                                               "step_change",
                                               "momentum_x",
@@ -67,6 +69,7 @@ std::vector<double> account_values(const Account& a) {
           a.conversion_heat,
           a.boundary_flux,
           a.external_work,
+          a.support_work,
           a.gravity_work,
           a.step_change,
           a.momentum[0],

@@ -65,6 +65,11 @@ IceBody make_ice(const IceOptions& options) {
   if (options.held_rim > 0) hold_rim(ice.solid, options.planes, options.held_rim);
   const double velocity = options.ball ? -options.ball->speed : options.velocity;
   for (std::size_t n = 0; n < ice.solid.node_count(); ++n) ice.solid.velocities[3 * n + 2] = velocity;
+  // As the account of the start has it, before the first step sums it.
+  for (const double mass : ice.solid.masses) {
+    ice.solid.kinetic_energy += 0.5 * mass * velocity * velocity;
+    ice.books.momentum[2] += mass * velocity;
+  }
   ice.face_neighbours = continuum::face_neighbours(ice.solid.mesh);
   if (options.own_contact) {
     // The size of the smallest elements sets how far candidates are looked for.

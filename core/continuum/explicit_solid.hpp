@@ -80,6 +80,7 @@ struct EnergyAccount {
   double hourglass = 0;
   double viscous = 0;        ///< bulk viscosity
   double external_work = 0;  ///< done on the body by external forces and by whatever holds fixed components
+  double support_work = 0;   ///< the latter part of it: not 0 where held components move
   double boundary_flux = 0;  ///< left through non-reflecting boundaries
   double removed = 0;        ///< kinetic energy taken off with removed elements
   double step_change = 0;    ///< kinetic energy re-read when the step changes: (dt_old^2 - dt_new^2)/8 m a^2
@@ -114,8 +115,9 @@ struct ExplicitSolid {
   // of them; hourglass_energy and viscous_energy are parts of it. Pending: half a step begun with the velocities of
   // advance_velocities; whoever sets another velocity after it corrects internal and external work by the difference.
   double kinetic_energy = 0, internal_work = 0, hourglass_energy = 0, viscous_energy = 0, external_work = 0,
-         boundary_flux = 0, removed_energy = 0, step_change = 0;
-  double pending_internal_work = 0, pending_external_work = 0, pending_boundary_flux = 0, pending_step_change = 0;
+         support_work = 0, boundary_flux = 0, removed_energy = 0, step_change = 0;
+  double pending_internal_work = 0, pending_external_work = 0, pending_support_work = 0, pending_boundary_flux = 0,
+         pending_step_change = 0;
 
   // Internal to the kernels. Lanes are elements of one pack, W = compute::pack_width.
   std::vector<std::int32_t> connectivity;  ///< [pack][8][W], 3 x node index; padding lanes repeat element 0
@@ -135,8 +137,8 @@ struct ExplicitSolid {
   POLYNYA_STATE_WITHOUT((name, law, numerics, connectivity, chunks), name, mesh, law, numerics, time, positions,
                         velocities, internal_force, masses, fixed, living_elements, element, points, damped, sleeping,
                         step_limit, kinetic_energy, internal_work, hourglass_energy, viscous_energy, external_work,
-                        boundary_flux, removed_energy, step_change, pending_internal_work, pending_external_work,
-                        pending_boundary_flux, pending_step_change, connectivity, natural_hourglass, irregular,
+                        support_work, boundary_flux, removed_energy, step_change, pending_internal_work,
+                        pending_external_work, pending_support_work, pending_boundary_flux, pending_step_change, connectivity, natural_hourglass, irregular,
                         hourglass_stiffness, exposure, idle, complete, chunks, force_shares, chunk_step_limit)
 };
 

@@ -18,7 +18,8 @@ constexpr std::size_t chunk = Sleeping::block;
 
 /// What a step does to the energy account, J.
 struct Work {
-  double kinetic = 0, completed = 0, begun = 0, inner_completed = 0, inner_begun = 0, step_change = 0;
+  double kinetic = 0, completed = 0, begun = 0, inner_completed = 0, inner_begun = 0, step_change = 0, held_completed = 0,
+         held_begun = 0;
 };
 
 /// One velocity component of a node with mass. `before` and `after`: the steps behind and ahead.
@@ -28,7 +29,7 @@ void advance_component(double mass, double internal, double external, bool fixed
   const double a = fixed ? 0.0 : (internal + external) / mass;
   velocity = old + 0.5 * (before + after) * a;
   // A held component is moved by a reaction equal and opposite to all the rest.
-  const double outer = fixed ? -internal : external;
+  const double reaction = fixed ? -(internal + external) : 0.0, outer = external + reaction;
   const double middle = old + 0.5 * before * a;
   work.kinetic += 0.5 * mass * (middle * middle - 0.25 * before * before * a * a);
   work.step_change += 0.125 * mass * (before * before - after * after) * a * a;
@@ -36,6 +37,8 @@ void advance_component(double mass, double internal, double external, bool fixed
   work.begun += 0.5 * after * outer * velocity;
   work.inner_completed += 0.5 * before * internal * old;
   work.inner_begun += 0.5 * after * internal * velocity;
+  work.held_completed += 0.5 * before * reaction * old;
+  work.held_begun += 0.5 * after * reaction * velocity;
 }
 
 void advance_node(ExplicitSolid& solid, std::size_t n, std::span<const double> external, double before, double after,
@@ -119,6 +122,8 @@ Work advance_nodes(ExplicitSolid& solid, std::span<const double> external, doubl
     total.inner_completed += work.inner_completed;
     total.inner_begun += work.inner_begun;
     total.step_change += work.step_change;
+    total.held_completed += work.held_completed;
+    total.held_begun += work.held_begun;
   }
   return total;
 }
@@ -139,9 +144,10 @@ void advance_velocities(ExplicitSolid& solid, std::span<const double> external_f
     throw std::invalid_argument(solid.name + ": external forces must be [" + std::to_string(solid.node_count()) +
                                 "][3]");
   solid.external_work += solid.pending_external_work;
+  solid.support_work += solid.pending_support_work;
   solid.boundary_flux += solid.pending_boundary_flux;
   solid.internal_work += solid.pending_internal_work;
-  solid.pending_external_work = solid.pending_boundary_flux = solid.pending_internal_work = 0;
+  solid.pending_external_work = solid.pending_support_work = solid.pending_boundary_flux = solid.pending_internal_work = 0;
   solid.step_change += solid.pending_step_change;
   wake_where_pushed(solid, external_force, std::max(dt_previous, dt_next));
   add_boundary_traction(solid, external_force, dt_previous, dt_next);
@@ -149,6 +155,8 @@ void advance_velocities(ExplicitSolid& solid, std::span<const double> external_f
   solid.kinetic_energy = work.kinetic;
   solid.external_work += work.completed;
   solid.pending_external_work += work.begun;
+  solid.support_work += work.held_completed;
+  solid.pending_support_work += work.held_begun;
   solid.internal_work -= work.inner_completed;
   solid.pending_internal_work -= work.inner_begun;
   solid.pending_step_change = work.step_change;
@@ -165,6 +173,7 @@ EnergyAccount energies(const ExplicitSolid& solid) {
   account.hourglass = solid.hourglass_energy;
   account.viscous = solid.viscous_energy;
   account.external_work = solid.external_work;
+  account.support_work = solid.support_work;
   account.boundary_flux = solid.boundary_flux;
   account.removed = solid.removed_energy;
   account.step_change = solid.step_change;

@@ -149,6 +149,7 @@ Decision sleeping(const Scene& scene) {
 Decision ice_sleeping(const Scene& scene) {
   if (!scene.ice) return impossible("the scene has no ice");
   if (scene.ice->ball) return impossible("all of a ball moves from the start");
+  if (scene.ice->mesh && scene.ice->mesh->velocity != 0) return impossible("all of the mesh moves from the start");
   if (scene.ice->bending) return {false, "rollers bend all of the beam"};
   if (scene.fluid && scene.vehicle && scene.fluid->start == "potential_flow")
     return {false, "the flow around the moving vehicle presses on all of the ice from the start"};

@@ -131,6 +131,13 @@ class MeshedIce(unittest.TestCase):
         told = summary_of(polynya("explain", "examples/ice_disc", "--json"))
         self.assertEqual((told["estimate"]["ice_elements"], told["symmetry"]), (576, "quarter"))
 
+    def test_the_case_with_a_mesh_resolves_at_all_levels(self):
+        told = [summary_of(polynya("explain", "cases/elastic_wedge", "--level", level, "--json"))["estimate"]
+                for level in ("quick", "standard", "fine")]
+        self.assertEqual([estimate["ice_elements"] for estimate in told], [240, 240, 240])
+        self.assertLess(2 * told[0]["cells"], told[1]["cells"])
+        self.assertLess(2 * told[1]["cells"], told[2]["cells"])
+
     def test_wrong_words_and_wrong_files_are_refused_in_one_line(self):
         with scratch() as folder:
             Path(folder, "plate.inp").write_text(plate().inp())

@@ -1,7 +1,7 @@
 // Wedges that enter water at constant speed, as fine as the pressure peak asks for, against Zhao and Faltinsen (1993).
 // The jet at the edge of the wetted part is about tan^2 / (2 pi) of c thick and the peak beside it as wide. The edge
-// runs along at 1.5 cot times the wedge's speed; what compressibility adds is of the order of the square of its Mach
-// number: 0.4 % at 40 degrees, 1.0 % at 30, 1.1 % at 20.
+// runs along at 1.5 cot times the wedge's speed, at Mach 0.07 to 0.11: what compressibility takes from the force, 3 to 5 %, is
+// known as well.
 #include <gtest/gtest.h>
 
 #include "tests/fluid_solver/falling_cylinder.hpp"
@@ -14,6 +14,7 @@ namespace {
 
 void expect_similarity(const Entered& entered) {
   EXPECT_NEAR(entered.force, 1, 0.08);
+  EXPECT_NEAR(entered.force / entered.acoustic_force, 1, 0.02);
   EXPECT_NEAR(entered.median, 1, 0.10);
   EXPECT_NEAR(entered.raw, 1, 0.20);
   EXPECT_LT(entered.inside, 1e-6);
@@ -33,10 +34,11 @@ TEST(WaterEntryFine, WedgeOf20DegreesAt240Cells) {
   expect_similarity(enter(at_20, 240, 0.025, POLYNYA_BINARY_DIR "/wedge_20.csv"));
 }
 
-// 3.2 to 3.8 % with any cells and sound speed, 3 % wanted (docs/verification_fluid.md).
+// Off the boundary elements by 3.5 to 3.8 % with any cells and sound speed (3 % wanted), which are 2.4 % off similarity.
 TEST(WaterEntryFine, FallingWedgeSlowsDownAsBoundaryElementsSay) {
   const Fallen fallen = drop_wedge(0.004, 0.04, 700);
   EXPECT_LT(fallen.velocity, 0.04);
+  EXPECT_LT(fallen.similarity, 0.015);
   EXPECT_LT(fallen.inside, 1e-6);
 }
 

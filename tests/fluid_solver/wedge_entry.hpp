@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/fluid_solver/acoustic_entry.hpp"
 #include "tests/fluid_solver/slice_entry.hpp"
 
 /// A wedge that enters water at constant speed V without gravity: the flow only grows (Zhao & Faltinsen 1993).
@@ -20,6 +21,7 @@ inline constexpr Similarity at_20{20, 42.485, 17.774, 0.5087}, at_30{30, 14.139,
 /// Over what similarity says.
 struct Entered {
   double force, median, raw;  ///< mean over the last tenth of the time; at the end
+  double acoustic_force;      ///< what linear acoustics says for `force`
   double inside;              ///< water inside the body over the displaced volume
 };
 
@@ -53,12 +55,13 @@ inline Entered enter(const Similarity& exact, double cells, double mach, const s
   const auto along = pressure_below(fluid);
   const double peak = exact.peak * 500 * speed * speed;
   const Entered entered{impulse / expected, median_peak(along) / peak, raw_peak(along) / peak,
+                        acoustic_entry(exact.deadrise, mach).force,
                         water_inside(fluid) / (0.5 * depth * depth / slope * h)};
   std::printf(
-      "wedge %g deg, c %g cells, Mach %g, %ld steps of %zu cells: force %.3f, peak %.3f (median of 5), %.3f (raw) "
+      "wedge %g deg, c %g cells, Mach %g, %ld steps of %zu cells: force %.3f (acoustics: %.3f), peak %.3f (median of 5), %.3f (raw) "
       "of theory; water inside %.1e\n",
-      exact.deadrise, cells, mach, fluid.steps, fluid.grid.cells(), entered.force, entered.median, entered.raw,
-      entered.inside);
+      exact.deadrise, cells, mach, fluid.steps, fluid.grid.cells(), entered.force, entered.acoustic_force, entered.median,
+      entered.raw, entered.inside);
   std::fflush(stdout);
   return entered;
 }

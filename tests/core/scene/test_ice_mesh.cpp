@@ -53,6 +53,14 @@ TEST(IceMesh, OpenFacesAreAnEffectThatCanBeSwitchedOff) {
   EXPECT_FALSE(resolved(head + ice).effect("non_reflecting_boundaries"));
 }
 
+TEST(IceMesh, StartsWithTheVelocityGivenAndThenNoneOfItSleeps) {
+  const Scene scene = resolved(head + ice + "velocity = \"-30 m/s\"\n");
+  EXPECT_EQ(scene.ice->mesh->velocity, -30);
+  EXPECT_FALSE(scene.effect("ice_sleeping"));
+  EXPECT_EQ(from_json(to_json(scene)).ice->mesh->velocity, -30);
+  EXPECT_EQ(resolved(head + ice).ice->mesh->velocity, 0);
+}
+
 TEST(IceMesh, RefusesWhatDoesNotGoTogetherInOneLine) {
   const auto refused = [](const std::string& text, const std::string& key, const std::string& remedy,
                           const std::string& mesh = facts) {
@@ -67,6 +75,8 @@ TEST(IceMesh, RefusesWhatDoesNotGoTogetherInOneLine) {
   refused(head + ice + "[ice.supports]\nends = \"xx\"\n", "ice.supports.ends", "\"xyz\"");
   refused(head + ice + "[ice.supports]\nends = \"\"\n", "ice.supports.ends", "non_reflecting");
   refused(head + "[ice]\nmesh_pieces = 2\n", "ice.mesh_pieces", "ice.mesh");
+  refused(head + "[ice]\nvelocity = \"1 m/s\"\n", "ice.velocity", "ice.mesh");
+  refused(head + ice + "velocity = \"1 m\"\n", "ice.velocity", "speed");
   refused(head + "[ice.supports]\nends = \"x\"\n", "ice.supports.ends", "ice.mesh");
   refused(head + ice, "ice.mesh", "./polynya", "");
   refused(head + ice, "ice.mesh", "--mesh", "{}");
