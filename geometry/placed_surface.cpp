@@ -175,9 +175,16 @@ void PlacedSurface::place_vertices(const BodySurface& surface, const std::array<
 void PlacedSurface::settle_coincidences(const std::array<LineLocator, 3>& lines) {
   const bool any = std::ranges::any_of(coincidences_, [](const auto& chunk) { return !chunk.empty(); });
   if (!any) return;
-  normals_.assign(vertices_, {0, 0, 0});
+  normals_.resize(vertices_);
+  coincides_.assign(vertices_, 0);
+  for (const auto& chunk : coincidences_)
+    for (const Coincidence& at : chunk) {
+      coincides_[static_cast<std::size_t>(at.vertex)] = 1;
+      normals_[static_cast<std::size_t>(at.vertex)] = {0, 0, 0};
+    }
   for (std::size_t t = 0; t < triangles_.size(); t += 3) {
     const auto vertex = [&](std::size_t c) { return static_cast<std::size_t>(triangles_[t + c]); };
+    if (!(coincides_[vertex(0)] | coincides_[vertex(1)] | coincides_[vertex(2)])) continue;
     const auto &a = corners_[vertex(0)].x, &b = corners_[vertex(1)].x, &c = corners_[vertex(2)].x;
     for (std::size_t d = 0; d < 3; ++d) {
       const std::size_t u = (d + 1) % 3, w = (d + 2) % 3;

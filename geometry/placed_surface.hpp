@@ -44,7 +44,8 @@ class PlacedSurface {
   std::vector<std::array<std::int32_t, 2>> open_edges_;
   std::vector<std::vector<Coincidence>> coincidences_;  ///< per chunk of vertices
   std::vector<Coincidence> facing_;  ///< vertices of sides that rest on a wall; plane: 0 the first, 1 the last
-  std::vector<std::array<double, 3>> normals_;
+  std::vector<std::array<double, 3>> normals_;  ///< [vertices], scratch, of those that coincide with a plane
+  std::vector<std::uint8_t> coincides_;          ///< [vertices], scratch
   std::int64_t loose_edges_ = 0;
   std::vector<Corner> before_;       ///< scratch: corners of the place before
   std::vector<std::uint8_t> moved_;  ///< [vertices], 1 if not where it was
