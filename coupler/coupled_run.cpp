@@ -113,7 +113,8 @@ void go_on(Run& run, const std::vector<std::string>& names) {
 }
 
 contact::Body as_contact_body(const SolidSide& side) {
-  return {side.positions, side.velocities, side.masses, side.radii, side.ids, side.triangles};
+  const bool rigid = !side.rigid_masses.empty();
+  return {side.positions, side.velocities, rigid ? side.rigid_masses : side.masses, side.radii, side.ids, side.triangles, rigid};
 }
 
 /// The fluid computes meanwhile, where there is one.

@@ -30,6 +30,14 @@ void read_topology(SolidSide& side, const exchange::Message& message) {
   copy_array(message, "surface.radius", side.radii);
   copy_array(message, "surface.volume", side.volumes);
   copy_array(message, "surface.triangles", side.triangles);
+  side.rigid_masses.clear();
+  if (message.has("surface.rigid_masses")) {
+    copy_array(message, "surface.rigid_masses", side.rigid_masses);
+    require_size(message, "surface.rigid_masses", side.rigid_masses.size(), side.ids.size());
+    for (const double mass : side.rigid_masses)
+      if (!(mass > 0))
+        throw exchange::ProtocolError("message '" + message.kind() + "': 'surface.rigid_masses' must be above 0");
+  }
   require_size(message, "surface.masses", side.masses.size(), side.ids.size());
   require_size(message, "surface.radius", side.radii.size(), side.ids.size());
   require_size(message, "surface.volume", side.volumes.size(), side.ids.size());

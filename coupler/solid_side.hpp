@@ -25,6 +25,7 @@ struct SolidSide {
 
   std::vector<std::int64_t> ids;
   std::vector<double> masses, radii, volumes;  ///< kg, m, m^3
+  std::vector<double> rigid_masses;            ///< kg, of a body that moves as one: its resistance at a vertex; else empty
   std::vector<std::int32_t> triangles;         ///< [nt][3], outward oriented
   std::vector<double> positions;               ///< m, at the end of the window
   std::vector<double> velocities;              ///< m/s, in the middle of the window
@@ -50,7 +51,7 @@ struct SolidSide {
   std::size_t vertices() const { return ids.size(); }
 
   POLYNYA_STATE_WITHOUT((ready_time), name, body, stable_step, can_subdivide, can_checkpoint, ready_time, new_threads,
-                        account, ids, masses, radii, volumes, triangles, positions, velocities, topology_changed,
+                        account, ids, masses, radii, volumes, rigid_masses, triangles, positions, velocities, topology_changed,
                         contact_force, fluid_force, fluid_impulse, start_force, expected_force, span_force, impedance,
                         kept_share, seen_velocity, velocity_sum, sum_time)
 };

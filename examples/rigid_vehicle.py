@@ -81,6 +81,15 @@ class RigidBody:
         free = np.all(self.turns)
         return np.linalg.solve(self.inertia, momentum) if free else self.turns * momentum / np.diag(self.inertia)
 
+    def resistance(self):
+        """The least mass with which the body resists a force at each vertex, by direction: how stiff contacts may be."""
+        turns = np.column_stack([self.spin(axis) for axis in np.eye(3)]) if any(self.turns) else np.zeros((3, 3))
+        x, y, z = self.arms.T
+        zero = np.zeros_like(x)
+        cross = np.moveaxis(np.array([[zero, -z, y], [z, zero, -x], [-y, x, zero]]), 2, 0)
+        yielding = np.diag(self.free) / self.mass + np.swapaxes(cross, 1, 2) @ turns @ cross
+        return 1 / np.linalg.eigvalsh(yielding)[:, -1]
+
     def advance(self, dt):
         """x(n+1) = x(n) + dt v(n+1/2). The frame turns by the spin that belongs to the mean momentum of the step."""
         before, self.centre = self.frame, self.centre + dt * self.velocity
@@ -122,7 +131,7 @@ def main():
     with open(options.scene) as file, open(os.path.join(options.out, "vehicle_surface.json")) as hull:
         scene, surface = json.load(file), json.load(hull)
     body = RigidBody(surface, scene["symmetry"], scene["vehicle"]["speed"], scene["run"]["gravity"])
-    topology = {"surface.ids": np.array(surface["ids"], "i8"), "surface.masses": np.array(surface["masses"]),
+    topology = {"surface.rigid_masses": body.resistance(), "surface.ids": np.array(surface["ids"], "i8"), "surface.masses": np.array(surface["masses"]),
                 "surface.triangles": np.array(surface["triangles"], "i4"),
                 **dict.fromkeys(("surface.radius", "surface.volume"), np.zeros(len(body.arms)))}
     coupler = Coupler(options.connect, options.run, options.name)

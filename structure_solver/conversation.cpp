@@ -55,6 +55,8 @@ exchange::Message make_ready(const BuiltVehicle& vehicle, const Account& account
                           vehicle.mesh.hull_triangles);
   ready.add<double>("surface.radius", {rows(n)}, zeros);
   ready.add<double>("surface.volume", {rows(n)}, zeros);
+  if (const std::vector<double> rigid = vehicle.body->rigid_masses(); !rigid.empty())
+    ready.add<double>("surface.rigid_masses", {rows(n)}, rigid);
   add_motion(ready, *vehicle.body);
   return ready;
 }

@@ -1,5 +1,6 @@
 #include "structure_solver/rigid_motion.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 namespace polynya::structure {
@@ -64,6 +65,17 @@ void advance(RigidMotion& body, double dt) {
 
 Eigen::Vector3d angular_velocity(const RigidMotion& body) {
   return body.orientation * body_angular_velocity(body, body.orientation.transpose() * body.angular_momentum);
+}
+
+double resistance(const RigidMotion& body, const Eigen::Vector3d& arm) {
+  if (body.freedom == Freedom::axial) return body.mass;
+  if (body.freedom == Freedom::plane)
+    return 1 / (1 / body.mass + (arm.x() * arm.x() + arm.z() * arm.z()) / body.inertia(1, 1));
+  Eigen::Matrix3d cross;
+  cross << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
+  const Eigen::Matrix3d yielding =
+      Eigen::Matrix3d::Identity() / body.mass + cross.transpose() * body.inertia.inverse() * cross;
+  return 1 / Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(yielding, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
 
 void push(RigidMotion& body, Eigen::Vector3d force, Eigen::Vector3d torque, double dt_previous, double dt_next) {

@@ -39,6 +39,10 @@ void advance(RigidMotion& body, double dt);
 /// Angular velocity in space at the present orientation, rad/s.
 Eigen::Vector3d angular_velocity(const RigidMotion& body);
 
+/// The least mass (kg) with which the body resists a force at `arm` (m from the centre, body frame), whatever the direction: one
+/// over the largest eigenvalue of 1/m + [arm]^T I^-1 [arm] (operational-space inertia, Khatib 1987).
+double resistance(const RigidMotion& body, const Eigen::Vector3d& arm);
+
 /// v += (dt_previous + dt_next)/2 F/m, likewise the angular momentum; components that the symmetry forbids are dropped.
 /// The kinetic energy is 1/2 m v(n)^2 less dt_next^2/8 m a^2 (and the same for the rotation), whose change in a step of
 /// constant length is exactly the work of the forces; when the length changes the second term is re-read and booked.

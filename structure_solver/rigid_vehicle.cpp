@@ -52,6 +52,12 @@ void RigidVehicle::place_hull() {
   for (std::size_t v = 0; v < hull_.size(); ++v) hull_[v] = motion_.centre + motion_.orientation * hull_arms_[v];
 }
 
+std::vector<double> RigidVehicle::rigid_masses() const {
+  std::vector<double> masses;
+  for (const Eigen::Vector3d& arm : hull_arms_) masses.push_back(resistance(motion_, arm));
+  return masses;
+}
+
 void RigidVehicle::advance_positions(double dt) {
   const Eigen::Matrix3d before = motion_.orientation;
   if (loaded_ || motion_.freedom != Freedom::full)

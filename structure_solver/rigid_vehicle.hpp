@@ -24,6 +24,7 @@ class RigidVehicle final : public VehicleBody {
   std::array<double, station_count> station_stress() const override { return {}; }
   std::size_t hull_vertices() const override { return hull_arms_.size(); }
   void hull_motion(std::span<double> positions, std::span<double> velocities) const override;
+  std::vector<double> rigid_masses() const override;
   VehicleFields fields() const override;
   std::optional<Attitude> attitude() const override;
 

@@ -97,6 +97,8 @@ class VehicleBody {
   virtual std::size_t hull_vertices() const = 0;
   /// Positions at t(n+1) and velocities of (n+1/2) of the hull's vertices, [hull vertices][3].
   virtual void hull_motion(std::span<double> positions, std::span<double> velocities) const = 0;
+  /// Of a rigid body the mass (kg) with which all of it resists a force at a vertex of the hull; empty if it deforms.
+  virtual std::vector<double> rigid_masses() const { return {}; }
   virtual VehicleFields fields() const = 0;
   /// Of a rigid body that may turn.
   virtual std::optional<Attitude> attitude() const { return std::nullopt; }

@@ -20,6 +20,10 @@ void for_each_vertex(const Touch& touch, Visit&& visit) {
     if (touch.opposed_weights[k] != 0) visit(touch.swapped, touch.opposed[k], -touch.opposed_weights[k]);
 }
 
+Vector3 tangential(const Vector3& v, const Vector3& normal) {
+  return v - (dot(v, normal) / dot(normal, normal)) * normal;
+}
+
 double held_energy(const PairState& state, double stiffness, double depth) {
   return 0.5 * stiffness * (depth * depth + state.elastic_slip * state.elastic_slip);
 }
@@ -49,52 +53,53 @@ void ContactSprings::topology_changed(std::vector<LostForce> lost) {
 
 void ContactSprings::limit_stiffness(const Body& primary, const Body& secondary, double dt,
                                      std::vector<Touch>& touches) {
-  load_primary_.assign(primary.vertex_count(), 0.0);
-  load_secondary_.assign(secondary.vertex_count(), 0.0);
-  const auto load = [&](bool of_secondary) -> std::vector<double>& {
-    return of_secondary ? load_secondary_ : load_primary_;
+  load_primary_.assign(primary.rigid ? 1 : primary.vertex_count(), 0.0);
+  load_secondary_.assign(secondary.rigid ? 1 : secondary.vertex_count(), 0.0);
+  const auto body = [&](bool of_secondary) -> const Body& { return of_secondary ? secondary : primary; };
+  // Of a vertex the sum of stiffness x weight over its mass, of a rigid body that over all of its vertices.
+  const auto load = [&](bool of_secondary, std::int32_t v) -> double& {
+    return (of_secondary ? load_secondary_ : load_primary_)[body(of_secondary).rigid ? 0 : static_cast<std::size_t>(v)];
   };
-  const auto mass = [&](bool of_secondary, std::int32_t v) {
-    return (of_secondary ? secondary : primary).masses[static_cast<std::size_t>(v)];
+  const auto yielding = [&](bool of_secondary, std::int32_t v, double w) {
+    return std::abs(w) / body(of_secondary).masses[static_cast<std::size_t>(v)];
   };
   const double rate = law_.stiffness_factor / (dt * dt);
   for (Touch& touch : touches) {
     double compliance = 0;
-    for_each_vertex(touch, [&](bool s, std::int32_t v, double w) { compliance += w * w / mass(s, v); });
+    for_each_vertex(touch, [&](bool s, std::int32_t v, double w) {
+      compliance += (body(s).rigid ? 1.0 : std::abs(w)) * yielding(s, v, w);
+    });
     touch.stiffness = touch.share * rate / compliance;
     if (!touch.state->born) touch.stiffness = std::min(touch.stiffness, touch.state->stiffness);
-    for_each_vertex(touch, [&](bool s, std::int32_t v, double w) {
-      load(s)[static_cast<std::size_t>(v)] += touch.stiffness * std::abs(w);
-    });
+    for_each_vertex(touch,
+                    [&](bool s, std::int32_t v, double w) { load(s, v) += touch.stiffness * yielding(s, v, w); });
   }
   for (Touch& touch : touches) {
     double scale = 1;
     for_each_vertex(touch, [&](bool s, std::int32_t v, double) {
-      const double most = rate * mass(s, v), sum = load(s)[static_cast<std::size_t>(v)];
-      if (sum > most) scale = std::min(scale, most / sum);
+      if (const double sum = load(s, v); sum > rate) scale = std::min(scale, rate / sum);
     });
     touch.stiffness *= scale;
   }
 }
 
-Vector3 ContactSprings::friction(const Body& primary, const Body& secondary, Touch& touch, double normal_force,
+Vector3 ContactSprings::friction(const Vector3& motion, double normal_force, Touch& touch,
                                  ContactForces& forces) const {
   PairState& state = *touch.state;
-  const double most = law_.friction * normal_force, k = touch.stiffness, stretch = norm(touch.slip);
-  Vector3 slip = touch.slip;
+  // A spring that turns with the force keeps its length: nothing slid.
+  Vector3 slip = tangential(touch.slip, touch.push);
+  if (const double length = norm(slip); length > 0)
+    slip = (state.elastic_slip / length) * slip;
+  else
+    forces.released_energy += 0.5 * touch.stiffness * state.elastic_slip * state.elastic_slip;
+  slip = slip + tangential(motion, touch.push);
+  const double most = law_.friction * normal_force, k = touch.stiffness, stretch = norm(slip);
   double slid = 0;
   if (k * stretch > most) {
     slip = (most / (k * stretch)) * slip;
     slid = stretch - most / k;
   }
-  if (slid > 0 || state.anchor < 0 || touch.turned) {
-    const Body& pushed = touch.swapped ? primary : secondary;
-    const Body& opposed = touch.swapped ? secondary : primary;
-    if (touch.kind == Touch::Kind::point)
-      PointContact::set_anchor(pushed, opposed, touch, slip);
-    else
-      EdgeContact::set_anchor(opposed, pushed, touch, slip);
-  }
+  for (std::size_t d = 0; d < 3; ++d) state.slip[d] = dot(slip, touch.frame[d]);
   state.elastic_slip = stretch - slid;
   const double force = k * state.elastic_slip;
   forces.friction_loss += 0.5 * (state.friction_force + force) * slid;
@@ -117,7 +122,9 @@ void ContactSprings::push(const Body& primary, const Body& secondary, double dt,
       held_energy(state, state.stiffness, compressed) - held_energy(state, touch.stiffness, compressed);
   state.stiffness = touch.stiffness;
 
-  touch.approach = -dot(touch.push, relative_velocity(primary, secondary, touch));
+  const bool born = state.born;
+  const Vector3 velocity = relative_velocity(primary, secondary, touch);
+  touch.approach = -dot(touch.push, velocity);
   const double spring = touch.stiffness * compressed;
   if (state.born) forces.released_energy += 0.5 * spring * std::max(0.0, dt * touch.approach - compressed);
   state.born = false;
@@ -129,7 +136,8 @@ void ContactSprings::push(const Body& primary, const Body& secondary, double dt,
   const double along = spring + touch.damping_force;
   state.normal_force = along * norm(touch.push);
   Vector3 force = along * touch.push;
-  if (law_.friction > 0) force = force + friction(primary, secondary, touch, state.normal_force, forces);
+  // Before it was born the pair did not slide.
+  if (law_.friction > 0) force = force + friction((born ? 0.0 : dt) * velocity, state.normal_force, touch, forces);
 
   for_each_vertex(touch, [&](bool of_secondary, std::int32_t v, double weight) {
     add_to_row(of_secondary ? forces.secondary : forces.primary, static_cast<std::size_t>(v), weight * force);

@@ -39,7 +39,8 @@ struct ContactForces {
 /// sum of stiffness x weight stays below stiffness_factor x mass / dt^2. With u the motion along the pushes, sum k
 /// (g.u)^2 <= sum over vertices of u^2 sum k |g| |g|_1, |g|_1 = 2 (Gershgorin), so the largest eigenvalue of all
 /// contacts together is below 2 stiffness_factor / dt^2 however many press on one vertex (one pair alone:
-/// stiffness_factor / dt^2). A pair keeps the stiffness it was born with unless it must fall; what the springs held
+/// stiffness_factor / dt^2). On a rigid body they press together: there the sum of stiffness / mass, the mass with which all of it
+/// resists a force at the vertex (convex in the place: weights may interpolate 1 / mass), stays below stiffness_factor / dt^2. A pair keeps the stiffness it was born with unless it must fall; what the springs held
 /// more is booked as released.
 ///
 /// A step in which a pair comes into contact or parts is only partly one of contact, but a leapfrog's work takes the
@@ -47,8 +48,8 @@ struct ContactForces {
 /// and gain as much more where they part. Zero on average, it is booked as released, so that the account closes.
 ///
 /// Normal force: k (depth - offset) plus damping 2 zeta k dt / sqrt(stiffness_factor) x rate of depth, together never
-/// negative. Friction: a spring of the same stiffness from the point to where it stuck on the surface's material;
-/// beyond friction x normal force the anchor is drawn along (return to the cone), which dissipates.
+/// negative. Friction: a spring of the same stiffness that grows by the motion of the bodies past each other and turns
+/// with the surface's material; beyond friction x normal force it is cut to that (return to the cone), which dissipates.
 class ContactSprings {
  public:
   /// Throws std::invalid_argument on a law whose damping would not be stable.
@@ -70,11 +71,11 @@ class ContactSprings {
  private:
   void limit_stiffness(const Body& primary, const Body& secondary, double dt, std::vector<Touch>& touches);
   void push(const Body& primary, const Body& secondary, double dt, Touch& touch, ContactForces& forces);
-  Vector3 friction(const Body& primary, const Body& secondary, Touch& touch, double normal_force,
-                   ContactForces& forces) const;
+  /// motion: m, of what is pushed past what it is pushed from in the last step.
+  Vector3 friction(const Vector3& motion, double normal_force, Touch& touch, ContactForces& forces) const;
 
   ContactLaw law_;
-  std::vector<double> load_primary_, load_secondary_;  // sum of stiffness x weight at each vertex, N/m
+  std::vector<double> load_primary_, load_secondary_;  // 1/s^2, sum of stiffness x weight / mass: [vertices], rigid: [1]
   std::optional<std::vector<LostForce>> lost_;         // since the last change of topology
   double settled_damping_ = 0;
 };

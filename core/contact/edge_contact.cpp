@@ -209,7 +209,6 @@ bool EdgeContact::hold(const Body& primary, const Body& secondary, const Surface
       const ClosestOnLines other = closest_of(e, f);
       if (!other.crossing || miss(other) >= miss(closest)) continue;
       closest = other;
-      if (pair.first != e || pair.second != f) pair.state.anchor = -1;
       pair.first = e;
       pair.second = f;
     }
@@ -239,18 +238,15 @@ bool EdgeContact::hold(const Body& primary, const Body& secondary, const Surface
   touch.opposed = {e.vertices[0], e.vertices[1], e.vertices[1]};
   touch.opposed_weights = {1 - s, s, 0};
   touch.push = distance > 0 ? faded.push_out * n + (faded.push_aside / distance) * beyond : n;
-  if (pair.state.anchor >= 0) {
-    const Vector3 d = b.a + pair.state.anchor_weights[1] * w - a.a - pair.state.anchor_weights[0] * u;
-    touch.slip = d - (dot(d, n)) * n;
-  }
+  touch.slip = pair.state.slip;
   return true;
 }
 
 void EdgeContact::mark_vertices_in_contact(const Body& primary, const Body& secondary, std::span<const Touch> touches) {
   touched_first_.assign(primary.vertex_count(), 0);
   touched_second_.assign(secondary.vertex_count(), 0);
-  for (const Touch& touch : touches)
-    (touch.swapped ? touched_first_ : touched_second_)[static_cast<std::size_t>(touch.pushed[0])] = 1;
+  for (const Touch& touch : touches)  // not those that wait without force until they are deeper than beside
+    if (touch.depth > 0) (touch.swapped ? touched_first_ : touched_second_)[static_cast<std::size_t>(touch.pushed[0])] = 1;
 }
 
 void EdgeContact::find(const Body& primary, const Body& secondary, const SurfaceTopology& first,
@@ -262,10 +258,6 @@ void EdgeContact::find(const Body& primary, const Body& secondary, const Surface
     if (!hold(primary, secondary, first, second, pair, touch)) {
       dropped_energy_ += touch.depth > 0 ? pair.state.held_energy : ended(pair.state, touch.depth);
       continue;
-    }
-    if (pair.state.anchor < 0) {
-      dropped_energy_ += 0.5 * pair.state.stiffness * pair.state.elastic_slip * pair.state.elastic_slip;
-      pair.state.elastic_slip = pair.state.friction_force = 0;
     }
     next_.push_back(pair);
   }
@@ -298,19 +290,6 @@ void EdgeContact::find(const Body& primary, const Body& secondary, const Surface
 
 double EdgeContact::take_dropped_energy() {
   return std::exchange(dropped_energy_, 0.0);
-}
-
-void EdgeContact::set_anchor(const Body& primary, const Body& secondary, const Touch& touch, const Vector3& slip) {
-  const auto at = [](const Body& body, std::int32_t v) { return row(body.positions, static_cast<std::size_t>(v)); };
-  const Vector3 u = at(primary, touch.opposed[1]) - at(primary, touch.opposed[0]),
-                w = at(secondary, touch.pushed[1]) - at(secondary, touch.pushed[0]);
-  // slip = beta w - alpha u, in the plane of both edges
-  const double uu = dot(u, u), uw = dot(u, w), ww = dot(w, w), su = dot(slip, u), sw = dot(slip, w);
-  const double determinant = uu * ww - uw * uw;
-  const double beta = (uu * sw - uw * su) / determinant, alpha = (uw * sw - ww * su) / determinant;
-  PairState& state = *touch.state;
-  state.anchor = 0;
-  state.anchor_weights = {touch.opposed_weights[1] + alpha, touch.pushed_weights[1] + beta, 0};
 }
 
 }  // namespace polynya::contact

@@ -33,7 +33,6 @@ class EdgeContact {
     if (archive.loading()) start_.clear();
     list_members(archive);
   }
-  static void set_anchor(const Body& primary, const Body& secondary, const Touch& touch, const Vector3& slip);
 
  private:
   POLYNYA_STATE_MEMBERS_WITHOUT((next_, hash_, boxes_), held_, next_, touched_first_, touched_second_, dropped_energy_,

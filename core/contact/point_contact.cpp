@@ -15,9 +15,7 @@ constexpr int longest_walk = 64;  // triangles that a held point may pass in a s
 // caught though rounding or its own widening puts it a little beside.
 constexpr double seam = 1e-6;
 constexpr double steepest_depth = 2;  // change of depth over motion, see faded_depth
-constexpr double most_widths_beside = 10;
-constexpr double farthest_slip = 2;  // change of slip over motion: the spring also turns with the force
-constexpr double rounding = 1e-14;   // of coordinates: what lies on a face counts as outside
+constexpr double rounding = 1e-14;    // of coordinates: what lies on a face counts as outside
 
 struct Corners {
   Vector3 a, b, c;
@@ -61,14 +59,6 @@ double passage(const Corners& now, const Corners& before, const Vector3& p, cons
   return w[0] >= -seam && w[1] >= -seam && w[2] >= -seam ? time : infinity;
 }
 
-Vector3 tangential(const Vector3& v, const Vector3& normal) {
-  return v - (dot(v, normal) / dot(normal, normal)) * normal;
-}
-
-Vector3 point_on(const Corners& x, const Vector3& w) {
-  return w[0] * x.a + w[1] * x.b + w[2] * x.c;
-}
-
 /// Of a point against the corner of a triangle that it moves fastest against, m/s.
 double relative_speed(const Body& points, std::size_t point, const Body& surface, std::size_t triangle) {
   double fastest = 0;
@@ -109,34 +99,17 @@ Footing nearest_footing(const Body& surface, const SurfaceTopology& topology, co
   return best == at.triangle ? at : Footing{best, foot_on(surface, best, p)};
 }
 
-/// Many widths beside its triangle, as beside those of collapsing elements, an anchor is carried off by the smallest
-/// motion of the corners.
-bool far_beside(const Vector3& weights) {
-  return std::max({std::abs(weights[0]), std::abs(weights[1]), std::abs(weights[2])}) > most_widths_beside;
+/// Turns with a triangle: along its first edge, across, normal.
+std::array<Vector3, 3> frame_of(const Body& surface, std::size_t triangle) {
+  const Corners x = corners_of(surface, triangle);
+  const Vector3 along = x.b - x.a, normal = face_normal(surface, triangle);
+  const double length = norm(along);
+  const Vector3 first = length > 0 ? (1 / length) * along : Vector3{};
+  return {first, cross(normal, first), normal};
 }
 
-/// What no motion of the contact can have brought is no slip, and no work of friction.
-void limit_slip(double farthest, Touch& touch) {
-  if (const double length = norm(touch.slip); length > farthest) touch.slip = (farthest / length) * touch.slip;
-}
-
-/// Stretch of the tangential spring across the direction of the force, of which motion can have brought `farthest`.
-void set_slip(const Body& surface, const PairState& state, const Footing& at, const Vector3& p, double farthest,
-              Touch& touch) {
-  const auto anchored = static_cast<std::size_t>(state.anchor);
-  const Vector3 stretch = p - point_on(corners_of(surface, anchored), state.anchor_weights);
-  const Vector3 normal = face_normal(surface, anchored);
-  touch.slip = tangential(stretch, touch.push);
-  touch.turned = anchored != at.triangle && state.on_face && at.foot.feature == Feature::face &&
-                 dot(normal, face_normal(surface, at.triangle)) < 1 - 1e-12;
-  if (!touch.turned) return limit_slip(farthest, touch);
-  // From face to face the force turns at once, around an edge with the point. A spring set on a face that the point
-  // has left is stretched along that face and turns with the force: seen along the new one, the depth times the angle
-  // between them would count as slip although nothing moved.
-  const Vector3 along = tangential(stretch, normal);
-  touch.slip = tangential(along, touch.push);
-  if (const double length = norm(touch.slip); length > 0) touch.slip = (norm(along) / length) * touch.slip;
-  limit_slip(farthest, touch);
+Vector3 from_frame(const std::array<Vector3, 3>& frame, const Vector3& local) {
+  return local[0] * frame[0] + local[1] * frame[1] + local[2] * frame[2];
 }
 
 std::uint64_t key_of(std::span<const std::int64_t> ids) {
@@ -166,13 +139,7 @@ std::vector<std::int32_t> PointContact::renumber_triangles(const Body& surface) 
 bool PointContact::follow(PairState& state, std::span<const std::int32_t> renumbered) {
   const auto now = [&](std::int32_t old) { return old < 0 ? old : renumbered[static_cast<std::size_t>(old)]; };
   state.feature = now(state.feature);
-  if (state.feature < 0) return false;
-  state.anchor = now(state.anchor);
-  if (state.anchor < 0) {
-    dropped_energy_ += 0.5 * state.stiffness * state.elastic_slip * state.elastic_slip;
-    state.friction_force = state.elastic_slip = 0;
-  }
-  return true;
+  return state.feature >= 0;
 }
 
 void PointContact::set_topology(const Body& points, const Body& surface, std::vector<LostForce>& lost) {
@@ -216,6 +183,7 @@ bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTo
                         const Exclusion& exclusion, double dt, std::size_t point, Touch& touch) {
   PairState& state = states_[point];
   const Vector3 p = row(points.positions, point);
+  const Vector3 slip = from_frame(frame_of(surface, static_cast<std::size_t>(state.feature)), state.slip);
   const Footing at = nearest_footing(surface, topology, exclusion, point, static_cast<std::size_t>(state.feature), p);
   const Depth depth =
       depth_at(surface, topology, settings_.mirror, at.triangle, at.foot, p, points.radii[point], state.inside);
@@ -242,14 +210,8 @@ bool PointContact::hold(const Body& points, const Body& surface, const SurfaceTo
   touch.opposed_weights = at.foot.weights;
   touch.push = depth.push;
   touch.depth = std::max(0.0, depth.value);
-  if (state.anchor >= 0) {
-    const double fastest = std::max(relative_speed(points, point, surface, at.triangle),
-                                    relative_speed(points, point, surface, static_cast<std::size_t>(state.anchor)));
-    // The direction of the force may also turn, by an angle times the depth of the spring.
-    const double turning = far_beside(state.anchor_weights) ? 0.0 : std::max(0.0, touch.depth - state.offset);
-    set_slip(surface, state, at, p, state.elastic_slip + farthest_slip * dt * fastest + turning, touch);
-  }
-  state.on_face = at.foot.feature == Feature::face;
+  touch.slip = slip;
+  touch.frame = frame_of(surface, at.triangle);
   touch.state = &state;
   return true;
 }
@@ -326,16 +288,6 @@ void PointContact::find(const Body& points, const Body& surface, const SurfaceTo
 
 double PointContact::take_dropped_energy() {
   return std::exchange(dropped_energy_, 0.0);
-}
-
-void PointContact::set_anchor(const Body& points, const Body& surface, const Touch& touch, const Vector3& slip) {
-  PairState& state = *touch.state;
-  const auto triangle = static_cast<std::size_t>(state.feature);
-  const Corners x = corners_of(surface, triangle);
-  const Vector3 p = row(points.positions, static_cast<std::size_t>(touch.pushed[0]));
-  const Vector3 foot = point_on(x, touch.opposed_weights);
-  state.anchor = state.feature;
-  state.anchor_weights = barycentric(x, foot + tangential(p - foot, touch.push) - slip);
 }
 
 }  // namespace polynya::contact

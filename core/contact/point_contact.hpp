@@ -47,9 +47,6 @@ class PointContact {
   POLYNYA_STATE_WITHOUT((active_, candidate_of_, found_, touched_), settings_, candidates_, states_, fresh_, ids_,
                         triangle_ids_, held_, active_, candidate_of_, found_, touched_, dropped_energy_)
 
-  /// Fixes the tangential spring of a touch so that its stretch is `slip`.
-  static void set_anchor(const Body& points, const Body& surface, const Touch& touch, const Vector3& slip);
-
  private:
   bool find_one(const Body& points, const Body& surface, const SurfaceTopology& topology, const Exclusion& exclusion,
                 double dt, std::size_t point, std::span<const std::int32_t> candidates, Touch& touch);

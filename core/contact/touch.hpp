@@ -11,7 +11,6 @@ struct PairState {
   std::int32_t feature = -1;   ///< triangle (or edge) of the surface that holds the point; -1: free
   bool born = false;           ///< the law has not seen it yet
   bool inside = false;         ///< the point itself was behind the surface
-  bool on_face = false;        ///< its foot was within a triangle, not on an edge
   bool accepted = false;       ///< found inside without having come through the surface
   double stiffness = 0;        ///< N/m
   double depth = 0;            ///< m, in the last step
@@ -24,8 +23,7 @@ struct PairState {
   double held_energy = 0;      ///< J, in both springs
   double dropped = 0;          ///< J, see ended(), not yet booked
   Vector3 place{};             ///< m, where it acted in the last step
-  std::int32_t anchor = -1;    ///< triangle on which the tangential spring is fixed; -1: not yet
-  Vector3 anchor_weights{};    ///< where: barycentric (edges: fractions along both)
+  Vector3 slip{};              ///< m, stretch of the tangential spring, in the frame of Touch
 };
 
 /// Energy to book when a pair parts, its depth now being `depth` (m, not above 0): what the tangential spring holds,
@@ -45,8 +43,8 @@ struct Touch {
   std::array<double, 3> opposed_weights{};
   Vector3 push{};       ///< minus the gradient of the depth, length 1 but on a rim
   double depth = 0;     ///< m
-  Vector3 slip{};       ///< m, stretch of the tangential spring if it stuck
-  bool turned = false;  ///< the spring is set on a face of another direction and has to be set anew
+  Vector3 slip{};       ///< m, stretch of the tangential spring at the last step, turned with the material since
+  std::array<Vector3, 3> frame{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};  ///< turns with the material
   double share = 1;     ///< of the stiffness of a pair: half where both surfaces' vertices are looked at
   PairState* state = nullptr;
   // Filled in by the law.

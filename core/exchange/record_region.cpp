@@ -98,7 +98,7 @@ Array RecordRegion::runs_inside(const Message& message, const std::string& name,
 }
 
 const RecordRegion::Mask* RecordRegion::mask_for(const std::string& name) const {
-  if (is_one_of(name, {"positions", "velocities", "surface.ids", "surface.masses", "surface.radius", "surface.volume"}))
+  if (is_one_of(name, {"positions", "velocities", "surface.ids", "surface.masses", "surface.rigid_masses", "surface.radius", "surface.volume"}))
     return &vertices_;
   if (name == "surface.triangles") return &triangles_;
   if (is_one_of(name, {"load.vertices", "load.forces"})) return &loads_;

@@ -42,6 +42,8 @@ def read_surface(message: Message, before: Surface | None, symmetry: str, findin
     if arrays is None:
         surface = Surface(ids, before.masses, before.radius, before.triangles, positions, velocities)
     else:
+        if "surface.rigid_masses" in message.arrays:
+            message.array(SECTION, "surface.rigid_masses", "f8", (count,))
         surface = Surface(ids, arrays["surface.masses"], arrays["surface.radius"], arrays["surface.triangles"],
                           positions, velocities)
         check_values(message.kind, surface, arrays["surface.volume"], findings)
