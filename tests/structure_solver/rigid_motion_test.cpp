@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "structure_solver/rigid_motion.hpp"
 
@@ -96,6 +97,30 @@ TEST(RigidMotion, SymmetryAllowsOnlyItsMotions) {
   EXPECT_EQ(angular_velocity(plane).z(), 0);
   EXPECT_EQ(axial.velocity, Vector3d(0, 0, 1.5));
   EXPECT_EQ(axial.orientation, Eigen::Matrix3d::Identity());
+}
+
+TEST(RigidMotion, ResistsAForceAtAPointWithTheMassOfTheWorstDirection) {
+  // A push of 1 N s at a point changes that point's velocity along the push by 1 / mass; no direction by more than resistance() says.
+  RigidMotion body;
+  body.mass = 3;
+  body.inertia << 0.5, 0.1, 0, 0.1, 0.6, 0.05, 0, 0.05, 0.04;
+  const Vector3d arm(0.05, -0.02, 0.4);
+  double most = 0;
+  for (int i = 0; i < 200; ++i)
+    for (int j = 0; j < 100; ++j) {
+      const double a = 2 * std::numbers::pi * i / 200, c = j / 99.0, s = std::sqrt(1 - c * c);
+      const Vector3d along(s * std::cos(a), s * std::sin(a), c);
+      RigidMotion pushed = body;
+      push(pushed, along, arm.cross(along), 1, 1);
+      most = std::max(most, along.dot(pushed.velocity + angular_velocity(pushed).cross(arm)));
+    }
+  EXPECT_NEAR(resistance(body, arm) * most, 1, 1e-3);
+  EXPECT_LE(resistance(body, arm) * most, 1 + 1e-12);
+  EXPECT_NEAR(resistance(body, Vector3d::Zero()), body.mass, 1e-12);
+  body.freedom = Freedom::axial;
+  EXPECT_EQ(resistance(body, arm), body.mass);
+  body.freedom = Freedom::plane;
+  EXPECT_NEAR(1 / resistance(body, arm), 1 / 3.0 + (0.05 * 0.05 + 0.4 * 0.4) / 0.6, 1e-12);
 }
 
 }  // namespace

@@ -197,3 +197,32 @@ TEST(Friction, CountsNoSlipThatTheMotionOfANeedleCannotHaveBrought) {
   }
   EXPECT_LE(lost, mu * normal_force * 2 * 50 * step * (1 + 1e-9));
 }
+
+TEST(Friction, DissipatesWhatItSlidesAlsoAlongAndAroundARim) {
+  // A deep point is drawn around the rim of a plate, first along it, then beyond it: the push tilts and is longer than 1 there.
+  Mesh floor = floor_of(1, 4);
+  Mesh point = point_at({-0.8, 0.97, 1e-3}, {});
+  PenaltyContact contact({.friction = mu, .stiffness_factor = factor, .depth_limit = 0.1, .skin = 0.01});
+  contact.set_topology(floor.body(), point.body());
+  contact.evaluate(floor.body(), point.body(), dt);
+  Vector3 force{};
+  double work = 0, lost = 0, stored = 0, way = 0, largest = 0;
+  constexpr int steps = 40000;
+  for (int n = 1; n <= steps; ++n) {
+    const double part = static_cast<double>(n) / steps;
+    const Vector3 x{-0.8 + 1.6 * part, 0.97 + 0.05 * std::min(1.0, 2 * part), -0.05 * std::min(1.0, 10 * part)};
+    const Vector3 step = x - row(point.positions, 0);
+    for (std::size_t d = 0; d < 3; ++d) point.velocities[d] = step[d] / dt, point.positions[d] = x[d];
+    const ContactForces& forces = contact.evaluate(floor.body(), point.body(), dt);
+    const Vector3 next = row(forces.secondary, 0);
+    work += 0.5 * dot(force + next, step);
+    lost += forces.friction_loss + forces.released_energy;
+    stored = forces.stored_energy;
+    way += norm(step);
+    largest = std::max(largest, norm(next));
+    force = next;
+  }
+  EXPECT_GT(lost, stored);
+  EXPECT_NEAR(lost + stored, -work, 2e-3 * lost);
+  EXPECT_LT(lost, mu * largest * way);
+}

@@ -327,6 +327,30 @@ TEST(Rules, ParticlesTakeOverTheForceOfFacesThatVanish) {
   EXPECT_NEAR(contact.evaluate(hull.body(), particle.body(), dt).secondary[2], -force, 1e-9 * force);
 }
 
+TEST(Rules, ARigidBodyIsAsStiffAContactAsItsWholeMassAllows) {
+  // Light vertices of a heavy rigid plate: the point's mass alone bounds the stiffness. Many points: the sum of what they may have.
+  const double dt = 1e-3, depth = 1e-4;
+  const auto force_of = [&](double vertex_mass, bool rigid, int points) {
+    Mesh floor = floor_of(1, 1), dropped;
+    floor.masses.assign(floor.count(), vertex_mass);
+    for (int n = 0; n < points; ++n) dropped.add_point({0.1 + 0.001 * n, 0.2, 1e-12}, {0, 0, -(depth + 1e-12) / dt}, 1);
+    Body plate = floor.body();
+    plate.rigid = rigid;
+    PenaltyContact contact(law);
+    contact.set_topology(plate, dropped.body());
+    contact.evaluate(plate, dropped.body(), dt);
+    dropped.drift(dt);
+    const ContactForces& forces = contact.evaluate(plate, dropped.body(), dt);
+    double sum = 0;
+    for (int n = 0; n < points; ++n) sum += forces.secondary[3 * static_cast<std::size_t>(n) + 2];
+    return sum;
+  };
+  const double rate = 0.1 / (dt * dt);
+  EXPECT_LT(force_of(0.01, false, 1), 0.05 * rate * depth);  // vertices on their own
+  EXPECT_NEAR(force_of(100, true, 1), rate * depth / (1 + 0.01), 1e-9 * rate * depth);
+  EXPECT_NEAR(force_of(100, true, 1000), 100 * rate * depth, 1e-6 * rate * depth);
+}
+
 TEST(Rules, TouchesOnlyTrianglesThatAreNotItsOwn) {
   // A folded strip: its end comes down on its beginning. Points do not meet the faces around themselves.
   Mesh strip;
