@@ -109,7 +109,7 @@ Balance balance(const Conversation& conversation, const Ledger& ledger, double a
   for (const SolidSide& side : conversation.solids) {
     double& stored = side.body == Body::vehicle ? sum.vehicle : sum.ice;
     stored = side.account.change({"kinetic", "internal", "hourglass", "viscous", "conversion_heat"});
-    sum.external += side.account.change({"gravity_work", "support_work"}) - side.account.change("boundary_flux");
+    sum.external += side.account.change({"gravity_work", "support_work", "set_load_work"}) - side.account.change("boundary_flux");
     sum.numerical += side.account.change("step_change");
     sum.momentum += side.account.change("momentum_z") - side.account.change("boundary_impulse_z") -
                     side.account.change("gravity_impulse_z") + outstanding(side)[2] -

@@ -25,6 +25,7 @@ Account account_of(const IceBody& ice) {
   account.external_work = elements.external_work - books.node_pair_work.total - books.node_gravity_work.total +
                           books.particle_load_work.total + books.prescribed_work;
   account.support_work = elements.support_work;
+  account.set_load_work = books.set_load_work.total;
   account.step_change = elements.step_change + books.particle_step_change.total;
   account.momentum = books.momentum;
   account.boundary_impulse = books.boundary_impulse;
@@ -45,6 +46,7 @@ const std::vector<std::string>& account_names() {
                                               "boundary_flux",
                                               "external_work",
                                               "support_work",
+                                              "set_load_work",
                                               "gravity_work",
                                               "step_change",
                                               "momentum_x",
@@ -70,6 +72,7 @@ std::vector<double> account_values(const Account& a) {
           a.boundary_flux,
           a.external_work,
           a.support_work,
+          a.set_load_work,
           a.gravity_work,
           a.step_change,
           a.momentum[0],

@@ -21,6 +21,7 @@ struct Account {
   double boundary_flux = 0;  ///< out through non-reflecting sides
   double external_work = 0;  ///< done by loads and by what holds prescribed nodes
   double support_work = 0;   ///< the part of external_work that supports do which move
+  double set_load_work = 0;  ///< the part of external_work that prescribed loads on sets do
   double gravity_work = 0;
   double step_change = 0;                                ///< see continuum::EnergyAccount
   std::array<double, 3> momentum{}, boundary_impulse{};  ///< N s, at t(n+1/2)

@@ -70,6 +70,7 @@ IceBody make_ice(const IceOptions& options) {
     ice.solid.kinetic_energy += 0.5 * mass * velocity * velocity;
     ice.books.momentum[2] += mass * velocity;
   }
+  ice.set_loads = SetLoads(ice.solid, options.loads);
   ice.face_neighbours = continuum::face_neighbours(ice.solid.mesh);
   if (options.own_contact) {
     // The size of the smallest elements sets how far candidates are looked for.
@@ -96,6 +97,8 @@ continuum::EquilibriumReport settle(IceBody& ice, std::span<const double> node_l
   std::vector<double> loads(node_loads.begin(), node_loads.end());
   for (std::size_t n = 0; n < ice.solid.node_count(); ++n)
     loads[3 * n + 2] -= ice.options.gravity * ice.solid.masses[n];
+  const auto on_sets = ice.set_loads.at(ice.solid);
+  for (std::size_t k = 0; k < on_sets.size(); ++k) loads[k] += on_sets[k];
   return continuum::bring_into_equilibrium(ice.solid, loads, ice.options.equilibrium);
 }
 

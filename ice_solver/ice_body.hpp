@@ -14,6 +14,7 @@
 #include "ice_solver/pair_sums.hpp"
 #include "ice_solver/particles.hpp"
 #include "ice_solver/plate.hpp"
+#include "ice_solver/set_loads.hpp"
 
 /// The ice: hexahedra that become particles, moved in step. One step from t(n) to t(n+1):
 ///     advance_positions(ice, dt);                 x(n+1), from v(n+1/2)
@@ -43,6 +44,7 @@ struct IceOptions {
   std::optional<BallOptions> ball;         ///< then the grid lines mean nothing
   std::optional<continuum::HexMesh> mesh;  ///< likewise; it lies where its nodes say, on planes of symmetry exactly
   std::vector<Support> supports;           ///< of nodes of that mesh
+  std::vector<SetLoad> loads;              ///< on nodes of that mesh
   double velocity = 0;                     ///< m/s, of that mesh at the start, along z; held components keep it
   bool conversion = true;
   Debris debris = Debris::particles;
@@ -88,7 +90,8 @@ struct IceBooks {
   double prescribed_work = 0;  ///< kinetic energy given to nodes whose velocity is set from outside
   Trapezoid particle_heat;     ///< taken from the motion by the artificial viscosity
   Trapezoid node_pair_work, node_gravity_work, particle_gravity_work, particle_load_work;
-  std::array<double, 3> boundary_impulse{};  ///< of symmetry planes, held and damped nodes, until t(n+1/2)
+  Trapezoid set_load_work;
+  std::array<double, 3> boundary_impulse{};  ///< of symmetry planes, held and damped nodes, loads on sets, until t(n+1/2)
   double gravity_impulse = 0;                ///< along z, until t(n+1/2)
   std::array<double, 3> momentum{};          ///< at t(n+1/2)
 };
@@ -103,6 +106,7 @@ struct IceBody {
   NeighbourList list;
   PairSums sums;
   OwnContact own_contact;
+  SetLoads set_loads;
   bool list_is_stale = true;
   int steps_since_build = 0;
   std::vector<double> pair_force, nodal_force;  ///< [nodes][3], N
@@ -111,8 +115,8 @@ struct IceBody {
   compute::Stopwatch watch;
 
   /// Between steps; the rest is made from the options.
-  POLYNYA_STATE_WITHOUT((options, face_neighbours, first_step, sums, watch), options, solid, face_neighbours,
-                        first_step, particles, background, list, sums, own_contact, list_is_stale, steps_since_build,
+  POLYNYA_STATE_WITHOUT((options, face_neighbours, first_step, sums, set_loads, watch), options, solid, face_neighbours,
+                        first_step, particles, background, list, sums, own_contact, set_loads, list_is_stale, steps_since_build,
                         pair_force, nodal_force, books, topology_changed, watch)
 };
 

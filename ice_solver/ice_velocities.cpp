@@ -23,11 +23,11 @@ double gravity_power(const std::vector<double>& mass, const std::vector<double>&
 }
 
 struct Powers {
-  double node_pair, viscous, node_gravity, particle_gravity, particle_load;
+  double node_pair, viscous, node_gravity, particle_gravity, particle_load, set_load;
 };
 
 /// Powers of the forces at t(n+1) with the present velocities.
-Powers powers(const IceBody& ice, std::span<const double> particle_loads) {
+Powers powers(const IceBody& ice, std::span<const double> set_forces, std::span<const double> particle_loads) {
   const Points& points = ice.particles.points;
   Powers p{};  // nothing to sum before there are particles or weight
   if (points.count() > 0 && ice.options.debris == Debris::particles) {
@@ -38,15 +38,17 @@ Powers powers(const IceBody& ice, std::span<const double> particle_loads) {
   p.node_gravity = gravity_power(ice.solid.masses, ice.solid.velocities, ice.options.gravity);
   p.particle_gravity = gravity_power(points.mass, points.velocity, ice.options.gravity);
   p.particle_load = product(particle_loads, points.velocity);
+  p.set_load = product(set_forces, ice.solid.velocities);
   return p;
 }
 
-void collect_nodal_force(IceBody& ice, std::span<const double> node_loads) {
+void collect_nodal_force(IceBody& ice, std::span<const double> set_forces, std::span<const double> node_loads) {
   std::vector<double>& force = ice.nodal_force;
   compute::for_chunks(ice.solid.node_count(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       for (std::size_t k = 3 * n; k < 3 * n + 3; ++k)
-        force[k] = ice.pair_force[k] + (node_loads.empty() ? 0.0 : node_loads[k]);
+        force[k] = ice.pair_force[k] + (node_loads.empty() ? 0.0 : node_loads[k]) +
+                   (set_forces.empty() ? 0.0 : set_forces[k]);
       force[3 * n + 2] -= ice.solid.masses[n] * ice.options.gravity;
     }
   });
@@ -124,13 +126,14 @@ MomentumBalance momentum_balance(const IceBody& ice) {
 
 /// Of the velocities at t(n+1/2), which hold the impulse of every force so far: momentum and impulses balance to
 /// rounding.
-void book_momentum(IceBody& ice, double dt_previous, double dt_next) {
+void book_momentum(IceBody& ice, std::span<const double> set_forces, double dt_previous, double dt_next) {
   const MomentumBalance balance = momentum_balance(ice);
   const double acting_time = 0.5 * (dt_previous + dt_next);
   for (std::size_t c = 0; c < 3; ++c) {
     ice.books.boundary_impulse[c] += acting_time * balance.boundary[c];
     ice.books.momentum[c] = balance.momentum[c];
   }
+  for (std::size_t k = 0; k < set_forces.size(); ++k) ice.books.boundary_impulse[k % 3] += acting_time * set_forces[k];
   if (ice.options.gravity == 0) return;
   const auto sum = [](const std::vector<double>& mass) {
     return ordered_sum(mass.size(), 4096, [&](std::size_t i) { return mass[i]; });
@@ -144,14 +147,15 @@ void book_momentum(IceBody& ice, double dt_previous, double dt_next) {
 void advance_velocities(IceBody& ice, std::span<const double> node_loads, std::span<const double> particle_loads,
                         double dt_previous, double dt_next) {
   const auto lap = ice.watch.lap("velocities");
-  collect_nodal_force(ice, node_loads);
+  const std::span<const double> set_forces = ice.set_loads.at(ice.solid);
+  collect_nodal_force(ice, set_forces, node_loads);
   if (dt_previous == 0) continuum::let_sleep(ice.solid, ice.nodal_force, dt_next);
-  const Powers closing = powers(ice, particle_loads);
+  const Powers closing = powers(ice, set_forces, particle_loads);
   continuum::advance_velocities(ice.solid, ice.nodal_force, dt_previous, dt_next);
   advance_particles(ice, particle_loads, dt_previous, dt_next);
   if (ice.particles.count() > 0 && ice.options.debris == Debris::particles)
     refresh_background(ice.background, ice.solid);  // its velocities
-  const Powers opening = powers(ice, particle_loads);
+  const Powers opening = powers(ice, set_forces, particle_loads);
   const auto book = [&](Trapezoid& account, double Powers::*which) {
     account.add(0.5 * dt_previous * closing.*which, 0.5 * dt_next * opening.*which);
   };
@@ -160,7 +164,8 @@ void advance_velocities(IceBody& ice, std::span<const double> node_loads, std::s
   book(ice.books.node_gravity_work, &Powers::node_gravity);
   book(ice.books.particle_gravity_work, &Powers::particle_gravity);
   book(ice.books.particle_load_work, &Powers::particle_load);
-  book_momentum(ice, dt_previous, dt_next);
+  book(ice.books.set_load_work, &Powers::set_load);
+  book_momentum(ice, set_forces, dt_previous, dt_next);
   ice.books.removed_since_step = 0;
 }
 

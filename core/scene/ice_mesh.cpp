@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/scene/parts.hpp"
+#include "core/scene/rows.hpp"
 
 namespace polynya::scene {
 namespace {
@@ -17,6 +18,17 @@ std::string support_of(const Values& values, const std::string& name) {
   if (components.empty() || components.size() != held.size())
     values.fail(key, "must be components such as \"z\", \"xy\" or \"xyz\", or \"non_reflecting\"");
   return components;
+}
+
+/// The tables whose keys are names of sets.
+const std::vector<std::string> tables_of_sets{"ice.supports", "ice.pressures", "ice.forces"};
+
+std::map<std::string, Curve> curves_of(const Values& values, const std::string& table, std::size_t components,
+                                       const Dimension& dimension, const std::string& example) {
+  std::map<std::string, Curve> curves;
+  for (const std::string& name : values.keys_below(table))
+    read_table(values, table + "." + name, components, dimension, example, curves[name].times, curves[name].rows);
+  return curves;
 }
 
 /// The box and the counts of the file; the size of the full plate is that of the box mirrored at the axes.
@@ -47,7 +59,9 @@ WantedMesh read_wanted_mesh(const Values& values) {
   if (wanted.unit == "none")
     values.fail("ice.mesh_unit", "missing; the unit of the file's coordinates must be m, cm, mm, um, in or ft");
   wanted.pieces = static_cast<long>(values.number("ice.mesh_pieces"));
-  wanted.sets = values.keys_below("ice.supports");
+  for (const std::string& table : tables_of_sets)
+    for (const std::string& name : values.keys_below(table))
+      if (std::find(wanted.sets.begin(), wanted.sets.end(), name) == wanted.sets.end()) wanted.sets.push_back(name);
   return wanted;
 }
 
@@ -55,8 +69,9 @@ void read_ice_mesh(const Values& values, const std::string& facts, Ice& ice) {
   if (!values.is_given("ice.mesh")) {
     for (const std::string key : {"ice.mesh_unit", "ice.mesh_pieces", "ice.velocity"})
       if (values.is_given(key)) values.fail(key, "belongs to ice.mesh; give that as well or leave this out");
-    for (const auto& name : values.keys_below("ice.supports"))
-      values.fail("ice.supports." + name, "names a set of ice.mesh; give that as well or leave this out");
+    for (const std::string& table : tables_of_sets)
+      for (const auto& name : values.keys_below(table))
+        values.fail(table + "." + name, "names a set of ice.mesh; give that as well or leave this out");
     return;
   }
   for (const std::string key : {"ice.length", "ice.width", "ice.thickness", "ice.lower_face"})
@@ -68,7 +83,9 @@ void read_ice_mesh(const Values& values, const std::string& facts, Ice& ice) {
   IceMesh& mesh = ice.mesh.emplace();
   mesh.file = wanted.file, mesh.unit = wanted.unit, mesh.pieces = wanted.pieces;
   mesh.velocity = values.number("ice.velocity");
-  for (const auto& name : wanted.sets) mesh.supports[name] = support_of(values, name);
+  for (const auto& name : values.keys_below("ice.supports")) mesh.supports[name] = support_of(values, name);
+  mesh.pressures = curves_of(values, "ice.pressures", 1, dimension::pressure, "0 at 0; 20 kPa at 1 ms");
+  mesh.forces = curves_of(values, "ice.forces", 3, dimension::force, "0, 0, 0 at 0; 0, 0, -10 N at 1 ms");
   try {
     take_facts(nlohmann::json::parse(facts), mesh, ice);
   } catch (const std::exception& error) {

@@ -97,6 +97,12 @@ struct Ball {
 };
 
 /// Hexahedra from a file. The launcher reads it into RUN/ice_mesh.h5 (core/results/mesh_file.hpp); the facts are its.
+/// A row of numbers over time, SI: linear between its entries, the last one lasts.
+struct Curve {
+  std::vector<double> times;  ///< s, rising, the first 0
+  std::vector<double> rows;   ///< [times][components]
+};
+
 struct IceMesh {
   std::string file;               ///< full path
   std::string unit;               ///< of its coordinates: "m", "mm", ...
@@ -107,6 +113,8 @@ struct IceMesh {
   double thinnest = 0;                          ///< m, smallest volume over largest face of an element
   double velocity = 0;                          ///< m/s, of all of it at the start, along z; held components keep it
   std::map<std::string, std::string> supports;  ///< by the name of a set: "x", "xyz", ... or "non_reflecting"
+  std::map<std::string, Curve> pressures;       ///< Pa, by the name of a set: on its faces
+  std::map<std::string, Curve> forces;          ///< N (x, y, z), by the name of a set: on the modelled part of it
 };
 
 struct Ice {

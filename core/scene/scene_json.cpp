@@ -61,12 +61,18 @@ void members(Part& p, Visit&& visit) {
 }
 
 template <class Part, class Visit>
+requires std::is_same_v<std::remove_const_t<Part>, Curve>
+void members(Part& p, Visit&& visit) {
+  visit("times", p.times), visit("rows", p.rows);
+}
+
+template <class Part, class Visit>
 requires std::is_same_v<std::remove_const_t<Part>, IceMesh>
 void members(Part& p, Visit&& visit) {
   visit("file", p.file), visit("unit", p.unit), visit("pieces", p.pieces), visit("velocity", p.velocity), visit("low", p.low);
   visit("high", p.high), visit("elements", p.elements), visit("nodes", p.nodes);
   visit("boundary_faces", p.boundary_faces), visit("volume", p.volume), visit("thinnest", p.thinnest);
-  visit("supports", p.supports);
+  visit("supports", p.supports), visit("pressures", p.pressures), visit("forces", p.forces);
 }
 
 template <class Part, class Visit>

@@ -136,6 +136,11 @@ std::vector<KeyRule> solid_rules() {
       text("ice.supports.NAME", "none",
            "what holds the nodes of NAME, a set of nodes or elements or a physical group of the mesh: components "
            "such as \"z\" or \"xyz\"; or \"non_reflecting\": waves leave through its faces"),
+      text("ice.pressures.NAME", "none",
+           "on the faces of the set NAME, inward: \"20 kPa\", or over time \"0 at 0; 20 kPa at 1 ms\""),
+      text("ice.forces.NAME", "none",
+           "on the set NAME as a whole, spread over its faces, or without faces over its nodes: \"0, 0, -10 N\", or over "
+           "time \"0, 0, 0 at 0; 0, 0, -10 N at 1 ms\""),
       text("ice.material", "ice.paper", "card, law johnson_holmquist_2, j2_plastic or elastic"),
       positive("ice.critical_strain", dim::none, "0.35", "effective strain at which an element becomes a particle"),
       choice(
@@ -334,7 +339,7 @@ const std::vector<KeyRule>& schema() {
 }
 
 std::string general_path(const std::string& path) {
-  for (const std::string named : {"body.", "ice.supports."}) {
+  for (const std::string named : {"body.", "ice.supports.", "ice.pressures.", "ice.forces."}) {
     if (!path.starts_with(named) || path.size() == named.size()) continue;
     const auto dot = path.find('.', named.size());
     return named + "NAME" + (dot == std::string::npos ? "" : path.substr(dot));

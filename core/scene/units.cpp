@@ -18,7 +18,7 @@ struct Unit {
   bool takes_prefix;
 };
 
-constexpr Dimension force{1, 1, -2, 0}, energy{2, 1, -2, 0}, power{2, 1, -3, 0}, temperature{0, 0, 0, 1};
+constexpr Dimension energy{2, 1, -2, 0}, power{2, 1, -3, 0}, temperature{0, 0, 0, 1};
 
 constexpr std::array units{
     Unit{"m", 1, dimension::length, true},
@@ -29,7 +29,7 @@ constexpr std::array units{
     Unit{"h", 3600, dimension::time, false},
     Unit{"K", 1, temperature, true},
     Unit{"Hz", 1, dimension::frequency, true},
-    Unit{"N", 1, force, true},
+    Unit{"N", 1, dimension::force, true},
     Unit{"Pa", 1, dimension::pressure, true},
     Unit{"bar", 1e5, dimension::pressure, true},
     Unit{"atm", 101325, dimension::pressure, false},
@@ -146,6 +146,7 @@ std::string describe(const Dimension& dimension) {
 }
 
 std::string unit_name(const Dimension& dimension) {
+  if (dimension == dimension::force) return "N";
   if (dimension == dimension::pressure) return "Pa";
   const std::array<std::pair<int, const char*>, 4> parts{
       {{dimension.mass, "kg"}, {dimension.length, "m"}, {dimension.time, "s"}, {dimension.temperature, "K"}}};

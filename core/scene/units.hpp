@@ -13,7 +13,7 @@ struct Dimension {
 namespace dimension {
 inline constexpr Dimension none{}, length{1, 0, 0, 0}, mass{0, 1, 0, 0}, time{0, 0, 1, 0}, speed{1, 0, -1, 0},
     acceleration{1, 0, -2, 0}, frequency{0, 0, -1, 0}, density{-3, 1, 0, 0}, pressure{-1, 1, -2, 0},
-    energy_per_area{0, 1, -2, 0};
+    force{1, 1, -2, 0}, energy_per_area{0, 1, -2, 0};
 }
 
 struct Quantity {

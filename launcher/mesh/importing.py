@@ -21,9 +21,9 @@ def load(wanted: dict) -> Mesh:
     for name in wanted["sets"]:
         if name not in mesh.sets:
             known = ", ".join(sorted(mesh.sets)) or "none"
-            raise WrongInput(f"{mesh.file}: ice.supports names the set '{name}'; the file's sets: {known}")
+            raise WrongInput(f"{mesh.file}: the scene names the set '{name}'; the file's sets: {known}")
         if len(mesh.sets[name]) == 0:
-            raise WrongInput(f"{mesh.file}: ice.supports names the set '{name}', which has no node of a hexahedron")
+            raise WrongInput(f"{mesh.file}: the scene names the set '{name}', which has no node of a hexahedron")
     renumbering.renumber(mesh)
     return mesh
 

@@ -1,5 +1,6 @@
 """Ice whose mesh comes from a file: the plate that is built in, in any order of the file; and what is refused."""
 
+import json
 import sys
 import unittest
 from pathlib import Path
@@ -153,6 +154,26 @@ class MeshedIce(unittest.TestCase):
         self.assertLess(2 * told[0]["cells"], told[1]["cells"])
         self.assertLess(2 * told[1]["cells"], told[2]["cells"])
 
+    def test_a_block_under_pressure_shortens_by_pressure_over_modulus(self):
+        """On a smooth floor, the pressure raised slowly and waves damped: uniaxial stress."""
+        pressed = SCENE.replace('gravity = "1e5 m/s^2"\n', "").replace("0.2 ms", "1 ms")
+        with scratch() as folder:
+            block = Block(CELLS, SIZE, (-40, -30, 0)).name_nodes("floor", lambda x, y, z: z == 0)
+            block.name_nodes("top", lambda x, y, z: z == 20)
+            Path(folder, "block.inp").write_text(block.shuffle().inp())
+            keys = 'material = "aluminium"\ndamping = "50 kHz"\n' + mesh_keys("block.inp", 'floor = "z"')
+            for load in ('[ice.pressures]\ntop = "0 at 0; 10 MPa at 0.2 ms"\n',
+                         '[ice.forces]\ntop = "0, 0, 0 at 0; 0, 0, -48 kN at 0.2 ms"\n'):
+                Path(folder, "scene.toml").write_text(pressed % (keys + load))
+                summary_of(polynya("run", f"{folder}/scene.toml", "--out", f"{folder}/{load[5]}", "--json", "--no-pictures"))
+                with h5py.File(sorted(Path(folder, load[5], "fields").glob("ice*.vtkhdf"))[-1]) as file:
+                    heights = file["VTKHDF/Points"][:, 2]
+                card = json.loads(Path(folder, load[5], "scene.json").read_text())["materials"]["aluminium"]["values"]
+                exact = 10e6 * 0.02 / card["youngs_modulus"]
+                top = heights[heights > 0.015]
+                print(f"shortened by {1e6 * (0.02 - top.mean()):.4f} um, pressure over modulus {1e6 * exact:.4f} um")
+                self.assertLess(np.abs(0.02 - top - exact).max(), 0.005 * exact)
+
     def test_wrong_words_and_wrong_files_are_refused_in_one_line(self):
         with scratch() as folder:
             Path(folder, "plate.inp").write_text(plate().inp())
@@ -163,6 +184,8 @@ class MeshedIce(unittest.TestCase):
                     (given.replace('"xyz"', '"xw"'), ("ice.supports.rim", '"xyz"', "non_reflecting")),
                     (given.replace("rim", "edge"), ("'edge'", "ALL, rim")),
                     ('thickness = "1 mm"\n' + given, ("ice.thickness", "leave it out")),
+                    (given + '[ice.pressures]\nedge = "1 kPa"\n', ("'edge'", "ALL, rim")),
+                    (given + '[ice.forces]\nrim = "1 N"\n', ("ice.forces.rim", "must have 3")),
                     ('[ice.supports]\nrim = "z"\n', ("ice.supports.rim", "ice.mesh"))):
                 Path(folder, "scene.toml").write_text(SCENE % keys)
                 process = polynya("run", f"{folder}/scene.toml", "--out", f"{folder}/out")

@@ -45,6 +45,18 @@ TEST(IceMesh, GivesTheIceTheSizeOfItsBoxAndTheEstimateItsCounts) {
   EXPECT_EQ(to_json(again), to_json(scene));
 }
 
+TEST(IceMesh, CarriesPressuresAndForcesOverTimeOnItsSets) {
+  const std::string text = head + ice +
+                           "[ice.pressures]\nends = \"0 at 0; 20 kPa at 1 ms\"\n"
+                           "[ice.forces]\nfloor = \"0, 2 N, -10 N\"\n";
+  EXPECT_EQ(wanted_mesh(scene_file(text), {})->sets, (std::vector<std::string>{"ends", "floor"}));
+  const Scene scene = resolved(text);
+  EXPECT_EQ(scene.ice->mesh->pressures.at("ends").times, (std::vector<double>{0, 1e-3}));
+  EXPECT_EQ(scene.ice->mesh->pressures.at("ends").rows, (std::vector<double>{0, 2e4}));
+  EXPECT_EQ(scene.ice->mesh->forces.at("floor").rows, (std::vector<double>{0, 2, -10}));
+  EXPECT_EQ(to_json(from_json(to_json(scene))), to_json(scene));
+}
+
 TEST(IceMesh, OpenFacesAreAnEffectThatCanBeSwitchedOff) {
   const std::string text = head + ice + "[ice.supports]\nends = \"non_reflecting\"\nfloor = \"z\"\n";
   EXPECT_TRUE(resolved(text).effect("non_reflecting_boundaries"));
@@ -78,6 +90,10 @@ TEST(IceMesh, RefusesWhatDoesNotGoTogetherInOneLine) {
   refused(head + "[ice]\nvelocity = \"1 m/s\"\n", "ice.velocity", "ice.mesh");
   refused(head + ice + "velocity = \"1 m\"\n", "ice.velocity", "speed");
   refused(head + "[ice.supports]\nends = \"x\"\n", "ice.supports.ends", "ice.mesh");
+  refused(head + ice + "[ice.pressures]\nends = \"1 N\"\n", "ice.pressures.ends", "20 kPa at 1 ms");
+  refused(head + ice + "[ice.pressures]\nends = \"1 kPa at 1 ms\"\n", "ice.pressures.ends", "first time must be 0");
+  refused(head + ice + "[ice.forces]\nends = \"0, 1 N\"\n", "ice.forces.ends", "must have 3");
+  refused(head + "[ice.forces]\nends = \"0, 0, 1 N\"\n", "ice.forces.ends", "ice.mesh");
   refused(head + ice, "ice.mesh", "./polynya", "");
   refused(head + ice, "ice.mesh", "--mesh", "{}");
 }
