@@ -11,6 +11,11 @@ double most_damage(const IceBody& ice) {
   return *std::max_element(ice.solid.element.damage.begin(), ice.solid.element.damage.end());
 }
 
+bool has_yielded(const IceBody& ice) {
+  const auto& strain = ice.solid.element.plastic_strain;
+  return *std::max_element(strain.begin(), strain.end()) > 0;
+}
+
 }  // namespace
 
 void record(BendingRecord& record, const BendingRig& rig, const IceBody& beam, double dt) {
@@ -21,7 +26,7 @@ void record(BendingRecord& record, const BendingRig& rig, const IceBody& beam, d
   record.peak_load = std::max(record.peak_load, load);
   record.load_time += load * dt;
   record.duration += dt;
-  if (damage > 0) return;
+  if (has_yielded(beam)) return;
   record.sag_load += sag(rig, beam) * load;
   record.load_load += load * load;
 }

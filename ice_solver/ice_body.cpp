@@ -6,6 +6,7 @@
 
 #include "core/compute/parallel.hpp"
 #include "ice_solver/ball.hpp"
+#include "ice_solver/flaws.hpp"
 
 namespace polynya::ice {
 namespace {
@@ -57,6 +58,7 @@ IceBody make_ice(const IceOptions& options) {
   IceBody ice;
   ice.options = options;
   ice.solid = continuum::make_solid("ice", mesh_of(options), options.law, options.numerics);
+  if (options.flaws > 0) sow_flaws(ice.solid, options.flaws, options.seed);
   hold_supports(ice.solid, options.supports);
   ice.solid.sleeping.threshold = options.sleeping_threshold;
   constrain_plate(ice.solid, options.planes, options.sides);

@@ -51,6 +51,8 @@ struct IceOptions {
   double critical_strain = 0.35;
   double collapsed_step =
       0.1;             ///< an element is also converted when its stable step falls below this part of its first
+  double flaws = 0;                ///< largest damage that elements start with
+  std::uint64_t seed = 1;          ///< of that
   double gravity = 0;  ///< m/s^2, along -z
   continuum::EquilibriumMethod equilibrium = continuum::EquilibriumMethod::automatic;  ///< of settle
   double sleeping_threshold = 0;                                                       ///< continuum::Sleeping

@@ -73,6 +73,8 @@ IceOptions options_from_scene(const scene::Scene& scene) {
   options.debris = debris_from_name(ice.particles);
   options.conversion = scene.effect("conversion");
   options.critical_strain = ice.critical_strain;
+  options.flaws = ice.flaws;
+  options.seed = static_cast<std::uint64_t>(scene.run.seed);
   options.own_contact = scene.effect("debris_contact");
   options.contact_friction = scene.contact.friction;
   options.contact_stiffness_factor = scene.contact.stiffness_factor;

@@ -180,6 +180,9 @@ void read_parts(const Values& values, const ResolveOptions& options, Scene& scen
   scene.overlap.method = values.text("overlap.method");
   if (values.has("vehicle")) scene.vehicle = read_vehicle(values);
   if (values.has("ice")) scene.ice = read_ice(values, options.mesh);
+  if (scene.ice && scene.ice->flaws > 0 && scene.material(scene.ice->material).law != "johnson_holmquist_2")
+    values.fail("ice.flaws", "needs a card of law johnson_holmquist_2; " + scene.ice->material + " is " +
+                                 scene.material(scene.ice->material).law);
   if (scene.vehicle) check_hull(values, *scene.vehicle, scene.material(scene.vehicle->material));
   if (scene.vehicle) place_vehicle(values, scene);
   read_run(values, scene);

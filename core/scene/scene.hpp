@@ -122,6 +122,7 @@ struct Ice {
   double lower_face = 0;                        ///< m, z of the lower face
   std::string material;
   double critical_strain = 0;
+  double flaws = 0;               ///< largest damage that elements start with, drawn evenly from 0 by run.seed
   std::string sides;              ///< "non_reflecting", "free", "clamped" or "clamped_ends"
   double damping = 0;             ///< 1/s, force over mass and velocity; 0: none
   double held_rim = 0;            ///< m, width of a rim of the upper face whose nodes are held; 0: none

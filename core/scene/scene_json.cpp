@@ -80,6 +80,7 @@ requires std::is_same_v<std::remove_const_t<Part>, Ice>
 void members(Part& p, Visit&& visit) {
   visit("length", p.length), visit("width", p.width), visit("thickness", p.thickness);
   visit("lower_face", p.lower_face), visit("material", p.material), visit("critical_strain", p.critical_strain);
+  visit("flaws", p.flaws);
   visit("sides", p.sides), visit("damping", p.damping), visit("held_rim", p.held_rim);
   visit("sleeping_threshold", p.sleeping_threshold);
   visit("start", p.start), visit("equilibrium", p.equilibrium), visit("particles", p.particles),

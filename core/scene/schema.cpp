@@ -143,6 +143,9 @@ std::vector<KeyRule> solid_rules() {
            "time \"0, 0, 0 at 0; 0, 0, -10 N at 1 ms\""),
       text("ice.material", "ice.paper", "card, law johnson_holmquist_2, j2_plastic or elastic"),
       positive("ice.critical_strain", dim::none, "0.35", "effective strain at which an element becomes a particle"),
+      number("ice.flaws", dim::none, "0",
+             "largest damage that elements start with, drawn evenly from 0 to it by run.seed; law johnson_holmquist_2 only", 0,
+             0.5),
       choice(
           "ice.sides", {"auto", "non_reflecting", "free", "clamped", "clamped_ends"}, "auto",
           "lateral faces; clamped_ends: held at the ends along x, sliding in the faces across y (plane strain); auto: "

@@ -111,6 +111,7 @@ Ice read_ice(const Values& values, const std::string& mesh) {
   read_ice_mesh(values, mesh, ice);
   ice.material = values.text("ice.material");
   ice.critical_strain = values.number("ice.critical_strain");
+  ice.flaws = values.number("ice.flaws");
   ice.particles = values.text("ice.particles");
   ice.integration = values.text("ice.integration");
   ice.held_rim = values.number("ice.held_rim");

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <set>
 
 #include "ice_solver/bending.hpp"
 #include "tests/ice_solver/ice_bodies.hpp"
@@ -49,6 +52,58 @@ BendingResult bend(int layers, double end) {
           a.internal,
           a.balance(),
           sag_load / load_load / timoshenko_flexibility(rig, std::get<continuum::Elastic>(beam.solid.law))};
+}
+
+/// A beam 400 x 10 x 40 mm, brittle, as the first crack has run through it; waves of the break may open others later.
+struct Break {
+  Cracks cracks;
+  double strength_ratio;
+};
+
+Break break_beam(double flaws, std::uint64_t seed) {
+  const double e = 0.005;
+  IceOptions options;
+  options.x = line(-0.2, 0.2, 80);
+  options.y = line(0, e, 1);
+  options.z = line(0, 0.04, 8);
+  auto law = brittle_ice();
+  law.damage_constant = 1e-3;
+  options.law = law;
+  options.planes = {false, true};
+  options.conversion = false;
+  options.flaws = flaws, options.seed = seed;
+  IceBody beam = make_ice(options);
+  BendingRig rig = make_bending_rig(beam, 0.36, 0.12, 0.01, 10e-3);
+  double dt = start(beam), peak = 0;
+  while (beam.solid.time < 40e-3 && count_cracks(rig, beam).all == 0) {
+    move_rollers(rig, beam, beam.solid.time, dt);
+    dt = advance(beam, dt);
+    const auto& damage = beam.solid.element.damage;  // once an element is fractured, its wave knocks on the rollers
+    if (*std::max_element(damage.begin(), damage.end()) < 0.99) peak = std::max(peak, roller_load(rig, beam));
+  }
+  return {count_cracks(rig, beam), outer_fibre_stress(rig, peak) / continuum::uniaxial_tensile_strength(law, law.reference_strain_rate)};
+}
+
+TEST(FourPointBending, ABeamWithFlawsBreaksInOnePlaceBetweenItsLoads) {
+  std::set<double> strengths;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    const Break broken = break_beam(0.05, seed);
+    EXPECT_EQ(broken.cracks.all, 1) << seed;
+    EXPECT_EQ(broken.cracks.between_loads, 1) << seed;
+    // The sampling excess of 8 layers, less the weakest of the outer elements.
+    EXPECT_LT(broken.strength_ratio, 8.0 / 7);
+    EXPECT_GT(broken.strength_ratio, 0.95);
+    std::printf("seed %d: strength over the law's %.4f\n", static_cast<int>(seed), broken.strength_ratio);
+    strengths.insert(broken.strength_ratio);
+  }
+  EXPECT_EQ(strengths.size(), 5u);
+}
+
+TEST(FourPointBending, APerfectBeamBreaksInAPlaceAndItsMirrorImageAtOnce) {
+  const Break broken = break_beam(0, 1);
+  EXPECT_EQ(broken.cracks.all, 2);
+  EXPECT_EQ(broken.cracks.between_loads, 2);
+  EXPECT_LT(broken.strength_ratio, 8.0 / 7);
 }
 
 TEST(FourPointBending, HasTheStiffnessOfTimoshenkosBeam) {

@@ -65,6 +65,14 @@ TEST(IceMesh, OpenFacesAreAnEffectThatCanBeSwitchedOff) {
   EXPECT_FALSE(resolved(head + ice).effect("non_reflecting_boundaries"));
 }
 
+TEST(IceMesh, FlawsNeedALawWithDamage) {
+  EXPECT_EQ(resolved(head + ice + "flaws = 0.05\n").ice->flaws, 0.05);
+  const std::string message = message_of(scene_file(head + ice + "flaws = 0.05\nmaterial = \"aluminium\"\n"),
+                                         {.level = {}, .settings = {}, .mesh = facts});
+  for (const std::string word : {"ice.flaws", "johnson_holmquist_2", "aluminium is elastic"})
+    EXPECT_NE(message.find(word), std::string::npos) << message;
+}
+
 TEST(IceMesh, StartsWithTheVelocityGivenAndThenNoneOfItSleeps) {
   const Scene scene = resolved(head + ice + "velocity = \"-30 m/s\"\n");
   EXPECT_EQ(scene.ice->mesh->velocity, -30);
