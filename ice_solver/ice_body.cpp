@@ -72,8 +72,8 @@ IceBody make_ice(const IceOptions& options) {
     ice.solid.kinetic_energy += 0.5 * mass * velocity * velocity;
     ice.books.momentum[2] += mass * velocity;
   }
-  ice.set_loads = SetLoads(ice.solid, options.loads);
   ice.face_neighbours = continuum::face_neighbours(ice.solid.mesh);
+  ice.set_loads = SetLoads(ice.solid, ice.face_neighbours, options.loads);
   if (options.own_contact) {
     // The size of the smallest elements sets how far candidates are looked for.
     const auto& volume = ice.solid.element.reference_volume;

@@ -8,8 +8,8 @@ namespace polynya::ice {
 
 namespace {
 
-const std::vector<std::int32_t>& set_of(const results::MeshFile& found, const std::string& file, const std::string& name,
-                                        const std::string& table) {
+const std::vector<std::int32_t>& set_of(const results::MeshFile& found, const std::string& file,
+                                        const std::string& name, const std::string& table) {
   const auto set = found.sets.find(name);
   if (set == found.sets.end()) throw std::runtime_error(file + ": lacks the set '" + name + "' of " + table);
   return set->second;
@@ -20,15 +20,19 @@ const std::vector<std::int32_t>& set_of(const results::MeshFile& found, const st
 results::MeshFile use_imported_mesh(IceOptions& options, const scene::IceMesh& mesh, const std::string& file) {
   results::MeshFile found = results::read_mesh_file(file);
   for (const auto& [name, held] : mesh.supports) {
-    Support support{.nodes = set_of(found, file, name, "ice.supports"), .components = 0, .non_reflecting = held == "non_reflecting"};
+    Support support{.nodes = set_of(found, file, name, "ice.supports"),
+                    .components = 0,
+                    .non_reflecting = held == "non_reflecting"};
     if (!support.non_reflecting)
       for (const char axis : held) support.components |= static_cast<std::uint8_t>(1 << (axis - 'x'));
     options.supports.push_back(std::move(support));
   }
   for (const auto& [name, curve] : mesh.pressures)
-    options.loads.push_back({SetLoad::Kind::pressure, set_of(found, file, name, "ice.pressures"), {curve.times, curve.rows}});
+    options.loads.push_back(
+        {SetLoad::Kind::pressure, name, set_of(found, file, name, "ice.pressures"), {curve.times, curve.rows}});
   for (const auto& [name, curve] : mesh.forces)
-    options.loads.push_back({SetLoad::Kind::force, set_of(found, file, name, "ice.forces"), {curve.times, curve.rows}});
+    options.loads.push_back(
+        {SetLoad::Kind::force, name, set_of(found, file, name, "ice.forces"), {curve.times, curve.rows}});
   options.velocity = mesh.velocity;
   options.mesh = continuum::HexMesh{found.nodes, found.elements};
   return found;

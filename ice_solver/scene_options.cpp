@@ -73,7 +73,7 @@ IceOptions options_from_scene(const scene::Scene& scene) {
   options.debris = debris_from_name(ice.particles);
   options.conversion = scene.effect("conversion");
   options.critical_strain = ice.critical_strain;
-  options.flaws = ice.flaws;
+  if (scene.effect("ice_failure")) options.flaws = ice.flaws;
   options.seed = static_cast<std::uint64_t>(scene.run.seed);
   options.own_contact = scene.effect("debris_contact");
   options.contact_friction = scene.contact.friction;

@@ -2,11 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <stdexcept>
-
-#include "core/continuum/surface.hpp"
 
 namespace polynya::ice {
 namespace {
@@ -16,8 +15,8 @@ using Eigen::Vector3d;
 /// Component of a curve at a time.
 double value_at(const LoadCurve& curve, std::size_t component, double time) {
   const std::size_t width = curve.rows.size() / curve.times.size();
-  const auto later = static_cast<std::size_t>(std::upper_bound(curve.times.begin(), curve.times.end(), time) -
-                                              curve.times.begin());
+  const auto later =
+      static_cast<std::size_t>(std::upper_bound(curve.times.begin(), curve.times.end(), time) - curve.times.begin());
   const auto value = [&](std::size_t row) { return curve.rows[row * width + component]; };
   if (later == 0) return value(0);
   if (later == curve.times.size()) return value(later - 1);
@@ -55,56 +54,50 @@ std::array<Vector3d, 4> places(const std::vector<double>& positions, const std::
 
 }  // namespace
 
-std::vector<SetLoads::Face> SetLoads::faces_within(const continuum::ExplicitSolid& solid,
-                                                   std::span<const std::int32_t> nodes) {
-  std::vector<std::uint8_t> chosen(solid.node_count(), 0);
-  for (const std::int32_t n : nodes) chosen[n] = 1;
-  const auto neighbours = continuum::face_neighbours(solid.mesh);
-  std::vector<Face> faces;
-  for (std::size_t slot = 0; slot < neighbours.size(); ++slot) {
-    if (neighbours[slot] >= 0) continue;
-    Face face{.corners = {}, .element = static_cast<std::int32_t>(slot / 6)};
-    for (std::size_t k = 0; k < 4; ++k)
-      face.corners[k] = solid.mesh.elements[8 * (slot / 6) + continuum::element_faces[slot % 6][k]];
-    if (std::all_of(face.corners.begin(), face.corners.end(), [&](std::int32_t n) { return chosen[n] != 0; }))
-      faces.push_back(face);
-  }
-  return faces;
-}
-
-SetLoads::SetLoads(const continuum::ExplicitSolid& solid, std::span<const SetLoad> loads) {
+SetLoads::SetLoads(const continuum::ExplicitSolid& solid, const continuum::FaceNeighbours& neighbours,
+                   std::span<const SetLoad> loads) {
   for (const SetLoad& load : loads) {
-    std::vector<Face> faces = faces_within(solid, load.nodes);
-    if (load.kind == SetLoad::Kind::pressure) {
-      if (faces.empty()) throw std::invalid_argument("ice.pressures: a set has no face on the surface of the mesh");
-      pressures_.push_back({load.curve, std::move(faces)});
+    std::vector<std::int32_t> faces = continuum::outer_faces_within(solid.mesh, neighbours, load.nodes);
+    if (load.kind == SetLoad::Kind::force) {
+      forces_.push_back(shared(solid, load, faces));
       continue;
     }
-    std::map<std::int32_t, double> shares;
-    for (const Face& face : faces) {
-      const auto areas = weighted_areas(places(solid.mesh.nodes, face.corners));
-      const Vector3d normal = (areas[0] + areas[1] + areas[2] + areas[3]).normalized();
-      for (std::size_t k = 0; k < 4; ++k) shares[face.corners[k]] += normal.dot(areas[k]);
-    }
     if (faces.empty())
-      for (const std::int32_t n : load.nodes) shares[n] = 1;
-    double whole = 0;
-    for (const auto& [node, share] : shares) whole += share;
-    Force& force = forces_.emplace_back(Force{load.curve, {}, {}});
-    for (const auto& [node, share] : shares) force.nodes.push_back(node), force.shares.push_back(share / whole);
+      throw std::invalid_argument(
+          "ice.pressures." + load.name +
+          ": the set has no face on the surface of the mesh; it must hold all four nodes of one");
+    pressures_.push_back({load.curve, std::move(faces)});
   }
   if (!empty()) force_.assign(3 * solid.node_count(), 0.0);
+}
+
+SetLoads::Force SetLoads::shared(const continuum::ExplicitSolid& solid, const SetLoad& load,
+                                 std::span<const std::int32_t> faces) {
+  std::map<std::int32_t, double> shares;
+  for (const std::int32_t face : faces) {
+    const auto corners = continuum::nodes_of_face(solid.mesh, face);
+    const auto areas = weighted_areas(places(solid.mesh.nodes, corners));
+    const Vector3d normal = (areas[0] + areas[1] + areas[2] + areas[3]).normalized();
+    for (std::size_t k = 0; k < 4; ++k) shares[corners[k]] += normal.dot(areas[k]);
+  }
+  if (faces.empty())
+    for (const std::int32_t n : load.nodes) shares[n] = 1;
+  double whole = 0;
+  for (const auto& [node, share] : shares) whole += share;
+  Force force{load.curve, {}, {}};
+  for (const auto& [node, share] : shares) force.nodes.push_back(node), force.shares.push_back(share / whole);
+  return force;
 }
 
 std::span<const double> SetLoads::at(const continuum::ExplicitSolid& solid) {
   std::fill(force_.begin(), force_.end(), 0.0);
   for (const Pressure& load : pressures_) {
     const double pressure = value_at(load.curve, 0, solid.time);
-    for (const Face& face : load.faces) {
-      if (solid.element.alive[face.element] == 0) continue;
-      const auto areas = weighted_areas(places(solid.positions, face.corners));
-      for (std::size_t k = 0; k < 4; ++k)
-        Eigen::Map<Vector3d>(&force_[3 * face.corners[k]]) -= pressure * areas[k];
+    for (const std::int32_t face : load.faces) {
+      if (solid.element.alive[face / 6] == 0) continue;
+      const auto corners = continuum::nodes_of_face(solid.mesh, face);
+      const auto areas = weighted_areas(places(solid.positions, corners));
+      for (std::size_t k = 0; k < 4; ++k) Eigen::Map<Vector3d>(&force_[3 * corners[k]]) -= pressure * areas[k];
     }
   }
   for (const Force& load : forces_)

@@ -1,10 +1,11 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/continuum/explicit_solid.hpp"
+#include "core/continuum/surface.hpp"
 
 /// Loads that the scene puts on named sets of the ice's mesh.
 namespace polynya::ice {
@@ -22,6 +23,7 @@ struct LoadCurve {
 struct SetLoad {
   enum class Kind { pressure, force };
   Kind kind = Kind::pressure;
+  std::string name;  ///< of the set
   std::vector<std::int32_t> nodes;
   LoadCurve curve;
 };
@@ -30,8 +32,9 @@ struct SetLoad {
 class SetLoads {
  public:
   SetLoads() = default;
-  /// Throws std::invalid_argument where a pressure finds no free face in its set.
-  SetLoads(const continuum::ExplicitSolid& solid, std::span<const SetLoad> loads);
+  /// Throws std::invalid_argument naming the set in which a pressure finds no face on the surface.
+  SetLoads(const continuum::ExplicitSolid& solid, const continuum::FaceNeighbours& neighbours,
+           std::span<const SetLoad> loads);
 
   bool empty() const { return pressures_.empty() && forces_.empty(); }
 
@@ -40,13 +43,9 @@ class SetLoads {
   std::span<const double> at(const continuum::ExplicitSolid& solid);
 
  private:
-  struct Face {
-    std::array<std::int32_t, 4> corners;  ///< counter-clockwise seen from outside
-    std::int32_t element;
-  };
   struct Pressure {
     LoadCurve curve;
-    std::vector<Face> faces;
+    std::vector<std::int32_t> faces;  ///< 6 x element + local face
   };
   struct Force {
     LoadCurve curve;
@@ -54,7 +53,7 @@ class SetLoads {
     std::vector<double> shares;  ///< [nodes], their sum is 1
   };
 
-  static std::vector<Face> faces_within(const continuum::ExplicitSolid& solid, std::span<const std::int32_t> nodes);
+  static Force shared(const continuum::ExplicitSolid& solid, const SetLoad& load, std::span<const std::int32_t> faces);
 
   std::vector<Pressure> pressures_;
   std::vector<Force> forces_;

@@ -88,17 +88,12 @@ void add_non_reflecting_boundary(ExplicitSolid& solid, const Plane& plane) {
 void add_non_reflecting_boundary(ExplicitSolid& solid, std::span<const std::int32_t> nodes) {
   const double rho = density(solid.law), normal_speed = longitudinal_wave_speed(solid.law),
                shear_speed = shear_wave_speed(solid.law);
-  std::vector<std::uint8_t> chosen(solid.node_count(), 0);
-  for (const std::int32_t n : nodes) chosen[n] = 1;
   std::map<std::int32_t, std::size_t> known = damped_entries(solid);
-  const auto neighbours = face_neighbours(solid.mesh);
   const auto node = [&](std::int32_t n) { return Eigen::Map<const Eigen::Vector3d>(&solid.mesh.nodes[3 * n]); };
   const int row[] = {0, 1, 2, 0, 1, 2}, column[] = {0, 1, 2, 1, 2, 0};
-  for (std::size_t slot = 0; slot < neighbours.size(); ++slot) {
-    if (neighbours[slot] >= 0 || solid.element.alive[slot / 6] == 0) continue;
-    std::array<std::int32_t, 4> corner;
-    for (std::size_t k = 0; k < 4; ++k) corner[k] = solid.mesh.elements[8 * (slot / 6) + element_faces[slot % 6][k]];
-    if (std::any_of(corner.begin(), corner.end(), [&](std::int32_t n) { return chosen[n] == 0; })) continue;
+  for (const std::int32_t face : outer_faces_within(solid.mesh, face_neighbours(solid.mesh), nodes)) {
+    if (solid.element.alive[face / 6] == 0) continue;
+    const auto corner = nodes_of_face(solid.mesh, face);
     const Eigen::Vector3d twice =
         (node(corner[2]) - node(corner[0])).cross(Eigen::Vector3d(node(corner[3]) - node(corner[1])));
     const double area = 0.5 * twice.norm();

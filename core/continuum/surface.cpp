@@ -55,6 +55,25 @@ FaceNeighbours face_neighbours(const HexMesh& mesh) {
   return neighbours;
 }
 
+std::array<std::int32_t, 4> nodes_of_face(const HexMesh& mesh, std::int32_t face) {
+  return face_nodes(mesh, static_cast<std::size_t>(face / 6), static_cast<std::size_t>(face % 6));
+}
+
+std::vector<std::int32_t> outer_faces_within(const HexMesh& mesh, const FaceNeighbours& neighbours,
+                                             std::span<const std::int32_t> nodes) {
+  std::vector<std::uint8_t> chosen(mesh.node_count(), 0);
+  for (const std::int32_t n : nodes) chosen[static_cast<std::size_t>(n)] = 1;
+  std::vector<std::int32_t> faces;
+  for (std::int32_t face = 0; face < static_cast<std::int32_t>(neighbours.size()); ++face) {
+    if (neighbours[static_cast<std::size_t>(face)] >= 0) continue;
+    const auto corners = nodes_of_face(mesh, face);
+    if (std::all_of(corners.begin(), corners.end(),
+                    [&](std::int32_t n) { return chosen[static_cast<std::size_t>(n)]; }))
+      faces.push_back(face);
+  }
+  return faces;
+}
+
 BoundarySurface boundary_surface(const HexMesh& mesh, const FaceNeighbours& neighbours, std::span<const double> alive,
                                  std::span<const Plane> excluded) {
   BoundarySurface surface;

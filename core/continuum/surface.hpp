@@ -36,6 +36,13 @@ FaceNeighbours face_neighbours(const HexMesh& mesh);
 BoundarySurface boundary_surface(const HexMesh& mesh, const FaceNeighbours& neighbours, std::span<const double> alive,
                                  std::span<const Plane> excluded);
 
+/// Faces with one element only whose four nodes are all among `nodes`, ascending: 6 x element + local face.
+std::vector<std::int32_t> outer_faces_within(const HexMesh& mesh, const FaceNeighbours& neighbours,
+                                             std::span<const std::int32_t> nodes);
+
+/// Nodes of the face 6 x element + local face, counter-clockwise seen from outside.
+std::array<std::int32_t, 4> nodes_of_face(const HexMesh& mesh, std::int32_t face);
+
 /// Nodes whose reference position lies on the plane (within tolerance, m), ascending.
 std::vector<std::int32_t> nodes_on_plane(const HexMesh& mesh, const Plane& plane, double tolerance);
 

@@ -174,6 +174,31 @@ class MeshedIce(unittest.TestCase):
                 print(f"shortened by {1e6 * (0.02 - top.mean()):.4f} um, pressure over modulus {1e6 * exact:.4f} um")
                 self.assertLess(np.abs(0.02 - top - exact).max(), 0.005 * exact)
 
+    def test_the_work_and_the_impulse_of_loads_stand_in_the_books_of_a_coupled_run(self):
+        """A free plate that a pressure throws upwards while a vehicle strikes it: the pressure does most of the work."""
+        block = Block((6, 6, 2), (30, 30, 10)).name_nodes("floor", lambda x, y, z: z == 0)
+        scene = STRIKE.replace("[ice]", '[effects]\nice_failure = "off"\nconversion = "off"\n[ice]')
+        with scratch() as folder:
+            Path(folder, "block.inp").write_text(block.shuffle().inp())
+            keys = 'mesh = "block.inp"\nmesh_unit = "mm"\n[ice.pressures]\nfloor = "0 at 0; 30 MPa at 10 us"\n'
+            Path(folder, "scene.toml").write_text(scene % (keys, 0.1))
+            summary = summary_of(polynya("run", f"{folder}/scene.toml", "--out", f"{folder}/out", "--json", "--no-pictures"))
+            work = json.loads(Path(folder, "out", "summary.json").read_text())["accounts"]["ice"]["set_load_work"]
+        print(f"work {work:.4g} J, errors of energy {summary['energy_error']:.1e}, momentum {summary['momentum_error']:.1e}")
+        self.assertGreater(4 * work, 0.1 * 0.5 * 0.005 * 40**2)  # four quarters, beside the vehicle's kinetic energy
+        self.assertLess(summary["energy_error"], 0.01)
+        self.assertLess(summary["momentum_error"], 1e-3)
+
+    def test_a_pressure_on_a_set_without_faces_is_refused_by_the_name_of_the_set(self):
+        with scratch() as folder:
+            block = Block(CELLS, SIZE, (-40, -30, 0)).name_nodes("edge", lambda x, y, z: x == 40 and y == 30)
+            Path(folder, "plate.inp").write_text(block.inp())
+            keys = 'mesh = "plate.inp"\nmesh_unit = "mm"\n[ice.pressures]\nedge = "1 kPa"\n'
+            Path(folder, "scene.toml").write_text(SCENE % keys)
+            process = polynya("run", f"{folder}/scene.toml", "--out", f"{folder}/out", "--no-pictures")
+        self.assertEqual(process.returncode, 2, process.stderr)
+        self.assertIn("ice.pressures.edge: the set has no face", process.stderr)
+
     def test_wrong_words_and_wrong_files_are_refused_in_one_line(self):
         with scratch() as folder:
             Path(folder, "plate.inp").write_text(plate().inp())

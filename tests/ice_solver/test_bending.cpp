@@ -81,7 +81,8 @@ Break break_beam(double flaws, std::uint64_t seed) {
     const auto& damage = beam.solid.element.damage;  // once an element is fractured, its wave knocks on the rollers
     if (*std::max_element(damage.begin(), damage.end()) < 0.99) peak = std::max(peak, roller_load(rig, beam));
   }
-  return {count_cracks(rig, beam), outer_fibre_stress(rig, peak) / continuum::uniaxial_tensile_strength(law, law.reference_strain_rate)};
+  return {count_cracks(rig, beam),
+          outer_fibre_stress(rig, peak) / continuum::uniaxial_tensile_strength(law, law.reference_strain_rate)};
 }
 
 TEST(FourPointBending, ABeamWithFlawsBreaksInOnePlaceBetweenItsLoads) {
